@@ -2,7 +2,7 @@
 
 
 class Mistake(Exception):
-    """A fault in what the user gave: one line naming the file, the place and what to write there."""
+    """A fault in what the user gave; its one line names the place and what to write there."""
 
 
 def one_line(text, limit=300):
@@ -16,11 +16,13 @@ def one_line(text, limit=300):
 
 
 def nearest(word, allowed):
-    """Return what to write instead of `word`: the closest of `allowed`, then all of them."""
+    """Return what to write instead of `word`: the closest of `allowed`, and what else there is."""
     from difflib import get_close_matches  # 3 ms, and only a mistake needs it
 
     allowed = sorted(allowed)
-    close = get_close_matches(str(word).lower(), [a.lower() for a in allowed], 1, 0.5)
-    listing = ", ".join(allowed) if allowed else "nothing"
-    guess = next((a for a in allowed if close and a.lower() == close[0]), None)
-    return f"did you mean '{guess}'? allowed: {listing}" if guess else f"allowed: {listing}"
+    close = get_close_matches(str(word).lower(), [a.lower() for a in allowed], 6, 0.5)
+    close = sorted((a for a in allowed if a.lower() in close), key=lambda a: close.index(a.lower()))
+    guess = f"did you mean '{close[0]}'? " if close else ""
+    shown = allowed if len(allowed) <= 16 else close or allowed[:10]
+    more = ", …" if len(shown) < len(allowed) else ""
+    return f"{guess}allowed: {', '.join(shown) or 'none'}{more}"

@@ -1,0 +1,129 @@
+"""Where things are and how the eye sees them: 4x4 matrices as 16 floats, row by row.
+
+Plain Python, so that a picture of a cached mesh needs no NumPy; every number is float64.
+"""
+
+import math
+
+IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+
+
+def product(a, b):
+    """Return the matrix product a b of two 4x4 matrices."""
+    columns = [b[j::4] for j in range(4)]
+    rows = [a[i : i + 4] for i in range(0, 16, 4)]
+    return tuple(p * w + q * x + r * y + s * z for p, q, r, s in rows for w, x, y, z in columns)
+
+
+def point(m, p):
+    """Return the point p moved by the affine matrix m."""
+    return tuple(sum(m[4 * i + k] * p[k] for k in range(3)) + m[4 * i + 3] for i in range(3))
+
+
+def placement(position, rotation, scale):
+    """Return the matrix that scales, turns about x, then y, then z (degrees), then moves."""
+    (sx, cx), (sy, cy), (sz, cz) = (
+        (math.sin(math.radians(angle)), math.cos(math.radians(angle))) for angle in rotation
+    )
+    turn = (
+        (cy * cz, sx * sy * cz - cx * sz, cx * sy * cz + sx * sz),
+        (cy * sz, sx * sy * sz + cx * cz, cx * sy * sz - sx * cz),
+        (-sy, sx * cy, cx * cy),
+    )
+    rows = (
+        (*(row[k] * scale[k] for k in range(3)), place)
+        for row, place in zip(turn, position, strict=True)
+    )
+    return (*(value for row in rows for value in row), 0.0, 0.0, 0.0, 1.0)
+
+
+def normal_matrix(m):
+    """Return the 9 values, row by row, of the inverse transpose of m's 3x3 part, times |det|.
+
+    The factor changes no direction, and keeps a flattening scale from dividing by zero.
+    """
+    a, b, c, _, d, e, f, _, g, h, i = m[:11]
+    cofactors = (
+        (e * i - f * h, f * g - d * i, d * h - e * g),
+        (c * h - b * i, a * i - c * g, b * g - a * h),
+        (b * f - c * e, c * d - a * f, a * e - b * d),
+    )
+    sign = -1.0 if mirrors(m) else 1.0
+    return tuple(sign * value for row in cofactors for value in row)
+
+
+def mirrors(m):
+    """Return whether the matrix m turns a right hand into a left one."""
+    a, b, c, _, d, e, f, _, g, h, i = m[:11]
+    return a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) < 0.0
+
+
+def look_at(eye, target, up):
+    """Return the matrix from the world to the eye's own axes: x right, y up, looking along -z."""
+    z = _unit(_minus(eye, target))
+    x = _cross(up, z)
+    if _dot(x, x) < 1e-12 * _dot(up, up):  # looking along `up`: any other direction may be up
+        x = _cross((0.0, 0.0, -1.0) if abs(z[2]) < 0.9 else (0.0, 1.0, 0.0), z)
+    x = _unit(x)
+    y = _cross(z, x)
+    rows = ((*axis, -_dot(axis, eye)) for axis in (x, y, z))
+    return (*(value for row in rows for value in row), 0.0, 0.0, 0.0, 1.0)
+
+
+def perspective(fov, aspect, near, far):
+    """Return the projection onto OpenGL's clip space; fov is the vertical angle in degrees."""
+    scale = 1.0 / math.tan(math.radians(fov) / 2.0)
+    depth = near - far
+    row = ((far + near) / depth, 2.0 * far * near / depth)
+    first = (scale / aspect, 0.0, 0.0, 0.0, 0.0, scale, 0.0, 0.0)
+    return (*first, 0.0, 0.0, *row, 0.0, 0.0, -1.0, 0.0)
+
+
+def enclosing(spheres):
+    """Return (centre, radius) of a sphere around (centre, radius) spheres: that of their box."""
+    low = [min(c[k] - r for c, r in spheres) for k in range(3)]
+    high = [max(c[k] + r for c, r in spheres) for k in range(3)]
+    centre = tuple((a + b) / 2.0 for a, b in zip(low, high, strict=True))
+    return centre, max(math.dist(centre, c) + r for c, r in spheres)
+
+
+def viewpoint(camera, aspect, centre, radius):
+    """Return (eye, target) of a scene.Camera; what it leaves open frames a sphere of the scene."""
+    target = camera.target or centre
+    if camera.position:
+        return camera.position, target
+    half = math.radians(camera.fov) / 2.0
+    half = min(half, math.atan(math.tan(half) * aspect))
+    distance = camera.distance or 1.04 * radius / math.sin(half)
+    azimuth, elevation = math.radians(camera.azimuth), math.radians(camera.elevation)
+    flat = math.cos(elevation)
+    away = (flat * math.sin(azimuth), math.sin(elevation), flat * math.cos(azimuth))
+    return tuple(t + distance * a for t, a in zip(target, away, strict=True)), target
+
+
+def clip_planes(eye, centre, radius):
+    """Return (near, far) distances that hold a sphere of the scene and keep the depth fine."""
+    distance = math.dist(eye, centre)
+    far = distance + 1.01 * radius
+    return max(distance - 1.01 * radius, 1e-3 * far), far
+
+
+def _minus(a, b):
+    return tuple(p - q for p, q in zip(a, b, strict=True))
+
+
+def _dot(a, b):
+    return sum(p * q for p, q in zip(a, b, strict=True))
+
+
+def _cross(a, b):
+    return (
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    )
+
+
+def _unit(a):
+    length = math.hypot(*a)
+    return tuple(p / length for p in a)

@@ -1,0 +1,146 @@
+"""What each GLSL file says of itself: its header, its parameters, its claims."""
+
+import os
+import re
+from dataclasses import dataclass
+
+from .errors import Mistake, nearest
+from .files import GLSL, read_text
+from .parameter import Parameter, parse_uniform
+
+SOURCE_LIMIT = 1 << 20  # bytes of one GLSL file; a longer one is refused before any driver sees it
+CLAIMS = ("positive", "reciprocal", "conserving")
+NEEDS = ("tangent",)  # what a file may ask of the rig beyond the normal
+FOLDERS = {"model": "models", "light": "lights"}
+DEFINES = {
+    "model": {"scatter": "vec3 scatter(vec3 L, vec3 V)"},
+    "light": {
+        "light": "Incident light(vec3 position, vec2 u)",
+        "environment": "vec3 environment(vec3 direction)",
+    },
+}
+OWN_KEYS = {  # scene keys of an object or a light, which no parameter may take over
+    "model": ("mesh", "model", "name", "position", "rotation", "scale", "fit", "crease"),
+    "light": ("kind", "name"),
+}
+_HEADER = re.compile(r"//\s?(\w+)\s{2,}(\S.*)")
+_COMMENT = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)", re.DOTALL)
+_FUNCTION = re.compile(r"^[ \t]*\w+[ \t]+(\w+)[ \t]*\(", re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class Shader:
+    """One GLSL file: kind is model, light or rig; name is what a scene calls it by.
+
+    claims maps each claimed property to the condition it is claimed under ("" for always);
+    defines holds the names of its functions.
+    """
+
+    kind: str
+    name: str
+    path: str
+    text: str
+    header: dict[str, str]
+    claims: dict[str, str]
+    needs: tuple[str, ...]
+    defines: frozenset[str]
+    parameters: tuple[Parameter, ...]
+
+    def defaults(self):
+        """Return {parameter name: default value}."""
+        return {parameter.name: parameter.default for parameter in self.parameters}
+
+    def parameter(self, name, where=""):
+        """Return the parameter of that name; raise Mistake with the closest spelling."""
+        for parameter in self.parameters:
+            if parameter.name == name:
+                return parameter
+        names = [p.name for p in self.parameters]
+        raise Mistake(f"{where}{self.name} has no parameter '{name}'; {nearest(name, names)}")
+
+
+def names(kind):
+    """Return the names of the files of a kind ("model" or "light") that come with Lumiar."""
+    folder = os.path.join(GLSL, FOLDERS[kind])
+    return sorted(f[:-5] for f in os.listdir(folder) if f.endswith(".glsl"))
+
+
+def read(kind, name, where="", folder=""):
+    """Return the Shader for a shipped file by its name, or for any file by its path in `folder`.
+
+    kind is model, light or rig; a path becomes the name of the Shader, in full. Raises Mistake,
+    beginning with `where` when there is no such file, and naming file:line when the file breaks the
+    contract of glsl/README.md.
+    """
+    if name.endswith((".glsl", ".frag")):
+        path = name = os.path.abspath(os.path.join(folder, os.path.expanduser(name)))
+        if not os.path.exists(path):
+            raise Mistake(f"{where}no file {path}; name a GLSL file, or one of {names(kind)}")
+    elif name in names(kind):
+        path = os.path.join(GLSL, FOLDERS[kind], f"{name}.glsl")
+    else:
+        advice = "; a file of your own is named with its ending, as in my_model.glsl"
+        raise Mistake(f"{where}no {kind} '{name}'; {nearest(name, names(kind))}{advice}")
+    text = read_text(path, SOURCE_LIMIT, "a GLSL file")
+    return parse(kind, name, path, text.replace("\r\n", "\n").replace("\r", "\n"))
+
+
+def parse(kind, name, path, text):
+    """Return the Shader for a text; see `read`."""
+    code, lines = without_comments(text), text.split("\n")
+    parameters = {}
+    for number, bare in enumerate(code.split("\n"), 1):
+        if not bare.lstrip().startswith("uniform") or (kind == "rig" and "rig_" in bare):
+            continue  # what the rigs themselves set is no parameter
+        parameter = parse_uniform(lines[number - 1], number, path)
+        if parameter.name in parameters:
+            raise Mistake(f"{path}:{number}: '{parameter.name}' is declared twice; keep one line")
+        if parameter.name in OWN_KEYS.get(kind, ()):
+            raise Mistake(f"{path}:{number}: '{parameter.name}' is a key of scenes; rename it")
+        parameters[parameter.name] = parameter
+    defines = frozenset(_FUNCTION.findall(code))
+    wanted = DEFINES.get(kind)
+    if wanted and not defines.intersection(wanted):
+        raise Mistake(f"{path}:1: a {kind} must define {' or '.join(wanted.values())}")
+    header, places = _header(lines)
+    needs = tuple(w for w in re.split(r"[,\s]+", header.get("needs", "")) if w)
+    for word in needs:
+        if word not in NEEDS:
+            raise Mistake(f"{path}:{places['needs']}: needs '{word}'; {nearest(word, NEEDS)}")
+    claims = _claims(header.get("claims", ""), parameters, f"{path}:{places.get('claims', 1)}: ")
+    parameters = tuple(parameters.values())
+    return Shader(kind, name, path, text, header, claims, needs, defines, parameters)
+
+
+def without_comments(text):
+    """Return GLSL text with every comment blanked out, all lines in place."""
+    return _COMMENT.sub(lambda found: re.sub(r"[^\n]", " ", found.group()), text)
+
+
+def _header(lines):
+    """Return the header of a file, {key: text}, and the line on which each key stands."""
+    header, places, key = {}, {}, None
+    for number, line in enumerate(lines, 1):
+        if not line.startswith("//"):
+            if line.strip():
+                break
+            continue
+        found = _HEADER.match(line)
+        if found:
+            key = found.group(1)
+            header[key], places[key] = found.group(2).strip(), number
+        elif key:
+            header[key] += " " + line[2:].strip()
+    return header, places
+
+
+def _claims(text, parameters, where):
+    claims = {}
+    for name, condition in re.findall(r"(\w+)\s*(?:\(([^)]*)\))?", text):
+        if name not in CLAIMS:
+            raise Mistake(f"{where}claims '{name}'; {nearest(name, CLAIMS)}")
+        choice, _, value = (part.strip() for part in condition.partition("="))
+        if condition and (choice not in parameters or value not in parameters[choice].choices):
+            raise Mistake(f"{where}'{name} ({condition})' names no choice of this file")
+        claims[name] = condition
+    return claims

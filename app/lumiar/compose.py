@@ -1,0 +1,289 @@
+"""Rig + chosen files + constants → one GLSL source per stage, and where each line came from."""
+
+import os
+import re
+from dataclasses import dataclass
+
+from .catalog import SOURCE_LIMIT, read, without_comments
+from .errors import Mistake
+from .files import GLSL, read_text
+
+STAGES = {
+    "flat": {"vertex": "flat.vert", "geometry": "flat.geom", "fragment": "flat.frag"},
+    "gouraud": {"vertex": "gouraud.vert", "fragment": "gouraud.frag"},
+    "phong": {"vertex": "phong.vert", "fragment": "phong.frag"},
+}
+MAY_INCLUDE = {  # the floors of GLSL: which folders a file of a folder may include from
+    "rigs": ("rigs", "models", "lights", "demos", "lib"),
+    "models": ("lib",),
+    "lights": ("lib",),
+    "demos": ("lib",),
+    "lib": ("lib",),
+}
+MAX_FILES, MAX_DEPTH = 256, 64
+MAX_UNIFORMS, MAX_ARRAY = 1024, 4096  # beyond, a driver's compiler may crash instead of complaining
+_INCLUDE = re.compile(r'\s*#\s*include\b\s*(?:"([^"]*)"\s*$)?')
+_MARK = re.compile(r"\s*// (each|where) ([a-z_ ]+)$")
+_ARRAY = re.compile(r"\[\s*(\d+)\s*\]")
+_TOKEN = re.compile(r"(#(?:\\\n|[^\n])*)|([A-Za-z_]\w*)|(\n)|[{}()\[\];,=]|\.\s*\w+|\d[\w.]*")
+_ALWAYS = {"layout", "in", "out", "flat", "smooth", "noperspective", "centroid", "precision"}
+
+
+@dataclass(frozen=True)
+class Source:
+    """The GLSL text of one stage; lines[i] is the (file, line) that its line i + 1 came from."""
+
+    text: str
+    lines: tuple[tuple[str, int], ...]
+
+
+def surface(model, lights, rate, constants, two_sided=True, transformed=True):
+    """Return the sources {stage: Source} that draw an object of one model under all lights.
+
+    model and lights are catalog Shaders, a light as often as the scene has it; rate is flat,
+    gouraud or phong. constants maps the choices and toggles (those of light i as `name_i`, from 1)
+    to the value compiled in. What none of these needs is not in the text. two_sided lights the back
+    of faces too; transformed moves the object from where its mesh lies. Raises Mistake naming
+    file:line.
+    """
+    kinds = {word: [] for word in ("light", "environment")}
+    for i, light in enumerate(lights, 1):
+        for word in kinds:
+            if word in light.defines:
+                kinds[word].append(f"{word}_{i}")
+    facts = {
+        "two_sided": two_sided,
+        "transformed": transformed,
+        "tangent": "tangent" in model.needs,
+        "surround": bool(kinds["environment"]) and "surround" in model.defines,
+    }
+    frame = f"lib/frame_{'tangent' if facts['tangent'] else 'normal'}.glsl"
+    places = {
+        "MODEL": [(model.path, "models", _fixed(model, constants))],
+        "LIGHTS": [
+            (light.path, "lights", _renamed(light, i, constants))
+            for i, light in enumerate(lights, 1)
+        ],
+        "FRAME": [_load(frame)],
+    }
+    return {
+        stage: _finish(_flatten(f"rigs/{file}", places, kinds, facts))
+        for stage, file in STAGES[rate].items()
+    }
+
+
+def screen(rig, constants):
+    """Return the sources {stage: Source} of a rig that fills the screen, such as "present"."""
+    shader = read("rig", os.path.join(GLSL, "rigs", f"{rig}.frag"))
+    places = {"RIG": [(shader.path, "rigs", _fixed(shader, constants))]}
+    return {
+        "vertex": _finish(_flatten("rigs/screen.vert", {}, {}, {})),
+        "fragment": _finish(_flatten("RIG", places, {}, {})),
+    }
+
+
+def _load(name):
+    """Return (path, folder, text) of a file below glsl/."""
+    path = os.path.join(GLSL, *name.split("/"))
+    return path, name.split("/")[0], read_text(path, SOURCE_LIMIT, "a GLSL file")
+
+
+def _fixed(shader, constants, suffix=""):
+    """Return the text of a shader with its choices and toggles turned into constants."""
+    lines = shader.text.split("\n")
+    for parameter in shader.parameters:
+        if not parameter.constant and parameter.name + suffix not in constants:
+            continue
+        name, value = parameter.name, constants.get(parameter.name + suffix, parameter.default)
+        comment = lines[parameter.line - 1].partition("//")[2]
+        if parameter.widget == "toggle":
+            code = f"const bool {name} = {'true' if value else 'false'};"
+        elif parameter.widget == "choice":
+            words = [f"{name}_{choice}".upper() for choice in parameter.choices]
+            values = [f"{word} = {i}" for i, word in enumerate(words)]
+            chosen = words[parameter.choices.index(value)]
+            code = f"const int {', '.join(values)}, {name} = {chosen};"
+        else:
+            code = f"const {parameter.type} {name} = {value};"
+        lines[parameter.line - 1] = f"{code}  //{comment}"
+    return "\n".join(lines)
+
+
+def _renamed(light, index, constants):
+    """Return the text of light number `index`, all that it declares with `_index` appended."""
+    text = _fixed(light, constants, f"_{index}")
+    declared = {name for chunk in _chunks(without_comments(text)) for name in chunk[2]}
+    pattern = re.compile(rf"(?<![.\w])({'|'.join(sorted(declared))})\b")
+    lines = []
+    for line in text.split("\n"):
+        code, slashes, comment = line.partition("//")
+        if not _INCLUDE.match(code):
+            code = pattern.sub(rf"\1_{index}", code)
+        lines.append(code + slashes + comment)
+    return "\n".join(lines)
+
+
+def _flatten(start, places, repeats, facts):
+    """Return [(line, path, number)] of a file with all that it includes in place.
+
+    places maps a name to the [(path, folder, text)] that stand in for it.
+    """
+    out, seen = [], set()
+
+    def add(path, folder, text, chain):
+        bare = without_comments(text).split("\n")
+        for number, line in enumerate(text.split("\n"), 1):
+            found = _INCLUDE.match(bare[number - 1])
+            if found:
+                # The comment-stripped line lost nothing inside the quotes, unless it held `//`.
+                include(_INCLUDE.match(line).group(1), f"{path}:{number}: ", folder, chain)
+            elif folder == "rigs":
+                out.extend((kept, path, number) for kept in _marked(line, repeats, facts))
+            else:
+                out.append((line, path, number))
+
+    def include(name, where, folder, chain):
+        if name is None:
+            raise Mistake(f'{where}write #include "lib/….glsl", the name in double quotes')
+        if name in places:
+            for path, kind, text in places[name]:
+                add(path, kind, text, (*chain, path))
+            return
+        path = _resolve(name, where, folder)
+        if path in chain:
+            names = " -> ".join(os.path.basename(p) for p in (*chain, path))
+            raise Mistake(f"{where}the files include each other in a circle: {names}")
+        if len(chain) >= MAX_DEPTH or len(seen) >= MAX_FILES:
+            limits = f"{MAX_DEPTH} files deep, {MAX_FILES} in all"
+            raise Mistake(f"{where}too many files are included; allowed: {limits}")
+        if path not in seen:
+            seen.add(path)
+            add(*_load(name), (*chain, path))
+
+    include(start, "", "rigs", ())
+    return out
+
+
+def _resolve(name, where, folder):
+    """Return the path of an included file; refuse what leaves glsl/ or climbs its floors."""
+    root = os.path.realpath(GLSL)
+    path = os.path.realpath(os.path.join(root, *name.split("/")))
+    plain = not os.path.isabs(name) and not re.search(r"[\\:~]|\.\.", name)
+    if not plain or not path.startswith(root + os.sep):
+        raise Mistake(f'{where}"{name}" leaves glsl/; include a file of it, such as lib/lobe.glsl')
+    target = name.split("/")[0]
+    if target not in MAY_INCLUDE[folder]:
+        allowed = ", ".join(f"{f}/" for f in MAY_INCLUDE[folder])
+        raise Mistake(f'{where}a file of {folder}/ may not include "{name}"; allowed: {allowed}')
+    if not os.path.isfile(path):
+        from .errors import nearest
+
+        files = [f"{target}/{f}" for f in os.listdir(os.path.join(root, target))]
+        raise Mistake(f'{where}no file "{name}"; {nearest(name, files)}')
+    return path
+
+
+def _marked(line, repeats, facts):
+    """Return what a line of a rig becomes: itself, nothing, or one copy for every light."""
+    found = _MARK.search(line)
+    if not found:
+        return [line]
+    code, (mark, words) = line[: found.start()], found.groups()
+    if mark == "each":
+        return [re.sub(rf"\b{words}\b", name, code) for name in repeats.get(words, ())]
+    terms = [term.split() for term in words.split(" and ")]
+    return [code] if all(facts[term[-1]] == (term[0] != "not") for term in terms) else []
+
+
+def _finish(lines):
+    """Return the Source of flattened lines: what main() reaches, if compilers can bear it."""
+    raw = [line for line, _, _ in lines]
+    bare = without_comments("\n".join(raw)).split("\n")
+    dropped = set()
+    for first, last in _unreachable(_chunks("\n".join(bare))):
+        while first and raw[first - 1].strip() and not bare[first - 1].strip():
+            first -= 1  # the comment right above goes with what it explains
+        dropped.update(range(first, last + 1))
+    _check_limits([(*lines[i][1:], bare[i]) for i in range(len(lines)) if i not in dropped])
+    out = [("#version 330 core", "", 0)]
+    for i, (line, path, number) in enumerate(lines):
+        if i not in dropped and (line.strip() or out[-1][0].strip()):
+            # moderngl takes "#include" for a command of its own, even inside a comment
+            out.append((line.replace("#include", "include"), path, number))
+    text = "\n".join(line for line, _, _ in out)
+    return Source(text + "\n", tuple((path, number) for _, path, number in out))
+
+
+def _chunks(text):
+    """Return the top-level declarations of comment-free GLSL: [(first, last, names, words, kept)].
+
+    first and last are line indices, names what a chunk declares, words the identifiers in it; kept
+    says that it stays whether used or not. Two declarations that share a line make one chunk.
+    """
+    chunks, line = [], 0
+    first, names, words, kept = 0, set(), set(), False
+    depth, last, naming, complete = 0, "", True, True
+    for found in _TOKEN.finditer(text + "\n"):
+        token = found.group()
+        directive, word, newline = found.groups()
+        if newline:
+            if complete and depth == 0:
+                chunks.append((first, line, names, words, kept))
+                first, names, words, kept, naming = line + 1, set(), set(), False, True
+            line += 1
+            continue
+        if directive:
+            kept = True
+            words.update(re.findall(r"[A-Za-z_]\w*", directive))
+            line += directive.count("\n")
+            continue
+        if word:
+            words.add(word)
+            kept = kept or (depth == 0 and word in _ALWAYS)
+            if last == "struct":
+                names.add(word)
+        elif depth == 0 and naming and token in "(=,;[" and last.isidentifier():
+            names.add(last)
+        if token in "([{":
+            depth += 1
+        elif token in ")]}":
+            depth -= 1
+        elif depth == 0 and token in "=,;":
+            naming = token != "="
+        complete = token in ";}"
+        last = token
+    if not complete or depth:
+        chunks.append((first, line - 1, names, words, True))
+    return chunks
+
+
+def _unreachable(chunks):
+    """Return the (first, last) lines of the chunks that main() has no use for."""
+    declaring = {}
+    for chunk in chunks:
+        for name in chunk[2]:
+            declaring.setdefault(name, []).append(chunk)
+    wanted = [chunk for chunk in chunks if chunk[4] or "main" in chunk[2]]
+    reached = set()
+    while wanted:
+        chunk = wanted.pop()
+        if chunk[0] not in reached:
+            reached.add(chunk[0])
+            wanted.extend(other for word in chunk[3] for other in declaring.get(word, ()))
+    return [(first, last) for first, last, _, words, _ in chunks if words and first not in reached]
+
+
+def _check_limits(lines):
+    """Refuse (path, number, code) lines that are known to bring compilers down."""
+    uniforms = 0
+    for path, number, code in lines:
+        uniforms += code.lstrip().startswith("uniform")
+        big = next((n for n in _ARRAY.findall(code) if int(n) > MAX_ARRAY), None)
+        if big:
+            raise Mistake(
+                f"{path}:{number}: an array of {big}; allowed: up to {MAX_ARRAY} elements"
+            )
+        if uniforms > MAX_UNIFORMS:
+            raise Mistake(f"{path}:{number}: more than {MAX_UNIFORMS} uniforms; use fewer")
+    if sum(len(code) for _, _, code in lines) > SOURCE_LIMIT:
+        raise Mistake(f"{path}:{number}: over {SOURCE_LIMIT >> 10} kB of GLSL after all includes")

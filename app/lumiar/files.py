@@ -1,0 +1,99 @@
+"""Where Lumiar's files lie, and writing one whole or not at all."""
+
+import contextlib
+import os
+import sys
+
+from .errors import Mistake
+
+
+def _find_root():
+    """Return the folder that holds glsl/ and assets/: the installed package, or the checkout."""
+    package = os.path.dirname(os.path.abspath(__file__))
+    installed = os.path.isdir(os.path.join(package, "glsl"))
+    return package if installed else os.path.dirname(os.path.dirname(package))
+
+
+ROOT = _find_root()
+GLSL = os.path.join(ROOT, "glsl")
+ASSETS = os.path.join(ROOT, "assets")
+
+
+def cache_folder():
+    """Return the folder for what can be made again at any time; it need not exist yet."""
+    if os.name == "nt":
+        base = os.environ.get("LOCALAPPDATA") or os.path.expanduser("~")
+    elif sys.platform == "darwin":
+        base = os.path.expanduser("~/Library/Caches")
+    else:
+        base = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
+    return os.path.join(base, "lumiar")
+
+
+def read_bytes(path, limit, what):
+    """Return the bytes of `path`; raise Mistake, naming it, for anything but a file up to `limit`.
+
+    Only a regular file is ever opened, so that a pipe or a device cannot stall the program. `what`
+    says what to name instead, as in "a mesh file".
+    """
+    import stat
+
+    try:
+        status = os.stat(path)
+        if not stat.S_ISREG(status.st_mode):
+            raise Mistake(f"{path}: not a regular file; name {what}")
+        if status.st_size > limit:
+            raise Mistake(f"{path}: {status.st_size} bytes; allowed for {what}: up to {limit}")
+        with open(path, "rb") as file:
+            return file.read(limit)
+    except FileNotFoundError:
+        raise Mistake(f"{path}: no such file; name {what}") from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise Mistake(f"{path}: cannot be read ({reason}); name {what}") from None
+
+
+def read_text(path, limit, what):
+    """Return the text of `path`: UTF-8 without byte-order mark; see `read_bytes`.
+
+    Raises Mistake naming file:line for a NUL byte or bytes that are not UTF-8.
+    """
+    data = read_bytes(path, limit, what)
+    nul = data.find(b"\0")
+    if nul >= 0:
+        line = data.count(b"\n", 0, nul) + 1
+        raise Mistake(f"{path}:{line}: holds a NUL byte; save it as plain UTF-8 text")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise Mistake(f"{path}:{line}: not UTF-8 text; save it with UTF-8 encoding") from None
+
+
+def write_whole(path, chunks):
+    """Write the bytes of `chunks` to `path`, so that the file is there whole or not at all.
+
+    The bytes go to a temporary file beside `path`, which then takes its place in one step; an
+    existing file stays untouched until that moment. Raises OSError when the disk refuses.
+    """
+    folder, name = os.path.split(os.path.abspath(path))
+    temporary = os.path.join(folder, f".{name}.{os.getpid()}.tmp")
+    announce(temporary)
+    try:
+        with open(temporary, "wb") as file:
+            for chunk in chunks:
+                file.write(chunk)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(temporary, path)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            os.unlink(temporary)
+        raise
+
+
+def announce(message):
+    """Tell the supervising process, if there is one, what to clean up should this one be killed."""
+    channel = os.environ.get("LUMIAR_SUPERVISOR")
+    if channel:
+        os.write(int(channel), os.fsencode(message) + b"\0")

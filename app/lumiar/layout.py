@@ -1,0 +1,87 @@
+"""Where everything in a scene stands, and what each object needs compiled. Draws nothing."""
+
+import math
+from dataclasses import dataclass
+
+from . import camera, compose
+from .geometry import Geometry
+from .parts import Object
+
+
+@dataclass(frozen=True)
+class Placed:
+    """An object in its place.
+
+    world  matrix from object space to the scene; clip from object space to clip space (see camera)
+    eye    position of the eye in the scene
+    closed whether its back faces can be left out
+    """
+
+    object: Object
+    geometry: Geometry
+    world: tuple
+    clip: tuple
+    eye: tuple[float, float, float]
+    closed: bool
+
+    @property
+    def transformed(self):
+        """Whether the object is anywhere else than where its mesh lies."""
+        return self.world != camera.IDENTITY
+
+
+def arrange(scene, geometries):
+    """Return the Placed objects of a scene; geometries holds the Geometry of each, in order."""
+    worlds = [_world(one, mesh) for one, mesh in zip(scene.objects, geometries, strict=True)]
+    spheres = [
+        _sphere(one, mesh, world)
+        for one, mesh, world in zip(scene.objects, geometries, worlds, strict=True)
+    ]
+    centre, radius = camera.enclosing(spheres)
+    aspect = scene.size[0] / scene.size[1]
+    eye, target = camera.viewpoint(scene.camera, aspect, centre, radius)
+    lens = camera.perspective(scene.camera.fov, aspect, *camera.clip_planes(eye, centre, radius))
+    view = camera.product(lens, camera.look_at(eye, target, scene.camera.up))
+    placed = []
+    for one, mesh, world, (middle, extent) in zip(
+        scene.objects, geometries, worlds, spheres, strict=True
+    ):
+        closed = mesh.closed and math.dist(eye, middle) > extent  # not seen from within
+        placed.append(Placed(one, mesh, world, camera.product(view, world), eye, closed))
+    return placed
+
+
+def constants(scene, placed):
+    """Return {name: value} of what is compiled in for an object, as `compose.surface` takes it."""
+    shaders = [(placed.object.model, placed.object.values, "")]
+    shaders += [(one.kind, one.values, f"_{i}") for i, one in enumerate(scene.lights, 1)]
+    return {
+        parameter.name + suffix: values[parameter.name]
+        for shader, values, suffix in shaders
+        for parameter in shader.parameters
+        if parameter.constant
+    }
+
+
+def sources(scene, placed):
+    """Return the composed GLSL {stage: Source} that draws an object in a scene."""
+    kinds = [light.kind for light in scene.lights]
+    fixed = constants(scene, placed)
+    return compose.surface(
+        placed.object.model, kinds, scene.shading, fixed, not placed.closed, placed.transformed
+    )
+
+
+def _world(one, mesh):
+    matrix = camera.placement(one.position, one.rotation, one.scale)
+    if not one.fit:
+        return matrix
+    scale = one.fit / (mesh.radius or 1.0)
+    to_origin = tuple(-scale * c for c in mesh.centre)
+    return camera.product(matrix, camera.placement(to_origin, (0.0, 0.0, 0.0), (scale,) * 3))
+
+
+def _sphere(one, mesh, world):
+    """Return (centre, radius) of a sphere around a placed mesh."""
+    radius = (one.fit or mesh.radius) * max(map(abs, one.scale))
+    return camera.point(world, mesh.centre), radius or 1e-6

@@ -1,0 +1,254 @@
+"""Owns the objects on the graphics card: Scene → linear radiance → displayed pixels."""
+
+import math
+import struct
+from contextlib import suppress
+from dataclasses import dataclass
+
+import moderngl
+
+from . import camera, compose, driverlog, geometry, layout
+from .errors import Mistake, one_line
+
+STRIP = 1 << 23  # samples drawn at a time: bounds the memory (180 MB) and the longest wait
+INSTALL = "install a driver: on Debian or Ubuntu `apt install libegl1 libgl1-mesa-dri`"
+
+
+@dataclass(frozen=True)
+class _Job:
+    """One object ready to draw: what to bind, how its faces wind, what to set."""
+
+    array: object
+    closed: bool
+    winding: str
+    uniforms: tuple
+
+
+def open_context():
+    """Return a moderngl context without a window, OpenGL 3.3 or later; raise Mistake if none."""
+    with suppress(Exception):  # this is the fast way; moderngl's own tries more of them
+        from glcontext import egl
+
+        names = {"libgl": "libGL.so.1", "libegl": "libEGL.so.1"}
+        raw = egl.create_context(mode="standalone", glversion=330, **names)
+        return moderngl.create_context(context=raw, require=330)
+    try:
+        return moderngl.create_context(standalone=True, require=330)
+    except Exception as error:  # moderngl raises nothing more specific
+        reason = one_line(error, 120)
+        raise Mistake(f"needs OpenGL 3.3, but none could be opened ({reason}); {INSTALL}") from None
+
+
+class Renderer:
+    """Draws scenes in one OpenGL context, its own unless one is given; release it or use `with`."""
+
+    def __init__(self, context=None):
+        self.context = context or open_context()
+        self._owns_context = context is None
+        self._programs, self._meshes, self._arrays, self._targets = {}, {}, {}, {}
+        self._drawn = (None, [])  # the last scene and its jobs: most frames draw it again
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.release()
+
+    def release(self):
+        """Free everything on the graphics card."""
+        for array in self._arrays.values():
+            array.release()
+        for program in self._programs.values():
+            program.release()
+        for _, _, *buffers in self._meshes.values():
+            for buffer in filter(None, buffers):
+                buffer.release()
+        self._release_targets()
+        if self._owns_context:
+            self.context.release()
+
+    @property
+    def name(self):
+        """The renderer and the version of its driver, as the driver tells them."""
+        return f"{self.context.info['GL_RENDERER']}, OpenGL {self.context.info['GL_VERSION']}"
+
+    @property
+    def digests(self):
+        """The SHA-256 of each mesh file in use, {path: digest}."""
+        return {mesh: digest for (mesh, *_), (_, digest, *_) in self._meshes.items() if digest}
+
+    def strips(self, scene, linear=False):
+        """Yield the picture of a scene as strips of rows, top first: (bytes, broken pixels).
+
+        The bytes are sRGB, 3 per pixel, or, if linear, radiance, 3 float32 per pixel. broken counts
+        the pixels whose radiance is NaN or infinite; sRGB shows them in magenta. Raises Mistake for
+        a size the driver cannot draw, and for errors in shaders and meshes.
+        """
+        width, height = scene.size
+        side = math.isqrt(scene.samples)
+        self._check_size(width, height, side)
+        rows = max(1, min(height, STRIP // (width * side * side)))
+        radiance, picture = self._target(width, rows, side, linear)
+        for top in range(0, height, rows):
+            count = min(rows, height - top)
+            below = height - top - count
+            radiance.viewport = (0, -below * side, width * side, height * side)
+            self.draw(scene, radiance)
+            self.present(scene, radiance, picture, count, linear)
+            area, dtype = (0, 0, width, count), "f4" if linear else "f1"
+            flags = picture.read(area, 1, attachment=1)
+            yield picture.read(area, 3, dtype=dtype), len(flags) - flags.count(b"\0")
+
+    def draw(self, scene, framebuffer):
+        """Draw the linear radiance of a scene into a framebuffer with a depth buffer."""
+        jobs = self._jobs(scene)
+        framebuffer.use()
+        framebuffer.clear(*scene.background, 0.0)
+        for job in jobs:
+            for member, value in job.uniforms:
+                member.write(value)
+            culling = moderngl.CULL_FACE if job.closed else moderngl.NOTHING
+            self.context.enable_only(moderngl.DEPTH_TEST | culling)
+            self.context.front_face = job.winding
+            job.array.render()
+
+    def present(self, scene, radiance, picture, rows, linear=False):
+        """Turn `rows` rows of radiance into pixels: mean of the samples, exposure, tone, sRGB."""
+        side = math.isqrt(scene.samples)
+        target = "linear" if linear else "display"
+        array = self._screen("present", {"side": side, "tone": scene.tone, "target": target})
+        array.program["rig_rows"].value = rows
+        if not linear:
+            array.program["rig_exposure"].value = 2.0**scene.exposure
+        radiance.color_attachments[0].use(0)
+        picture.use()
+        self.context.enable_only(moderngl.NOTHING)
+        array.render(moderngl.TRIANGLES, vertices=3)
+
+    def _jobs(self, scene):
+        """Return what it takes to draw each object of a scene."""
+        if self._drawn[0] is not scene:
+            entries = [self._mesh(one) for one in scene.objects]
+            placed = layout.arrange(scene, [entry[0] for entry in entries])
+            jobs = [self._job(scene, *pair) for pair in zip(placed, entries, strict=True)]
+            self._drawn = (scene, jobs)
+        return self._drawn[1]
+
+    def _job(self, scene, placed, entry):
+        program = self._program(scene, placed)
+        values = {
+            "rig_clip": _columns(placed.clip, 4),
+            "rig_world": _columns(placed.world, 4),
+            "rig_turn": _columns(camera.normal_matrix(placed.world), 3),
+            "rig_eye": struct.pack("3f", *placed.eye),
+            **_uniforms(placed.object.model, placed.object.values, scene, ""),
+        }
+        for i, light in enumerate(scene.lights, 1):
+            values.update(_uniforms(light.kind, light.values, scene, f"_{i}"))
+        members = ((program.get(name, None), value) for name, value in values.items())
+        uniforms = tuple((member, value) for member, value in members if member is not None)
+        winding = "cw" if camera.mirrors(placed.world) else "ccw"
+        return _Job(self._array(program, entry), placed.closed, winding, uniforms)
+
+    def _program(self, scene, placed):
+        """Return the program for an object of a scene, compiled once."""
+        texts = (placed.object.model.text, *(light.kind.text for light in scene.lights))
+        facts = (scene.shading, placed.closed, placed.transformed)
+        key = (*facts, *texts, *layout.constants(scene, placed).items())
+        if key not in self._programs:
+            self._programs[key] = self._compile(layout.sources(scene, placed))
+        return self._programs[key]
+
+    def _screen(self, rig, constants):
+        key = (rig, *constants.items())
+        if key not in self._programs:
+            self._programs[key] = self._compile(compose.screen(rig, constants))
+            self._arrays[key] = self.context.vertex_array(self._programs[key], [])
+        return self._arrays[key]
+
+    def _compile(self, sources):
+        texts = {f"{stage}_shader": source.text for stage, source in sources.items()}
+        try:
+            return self.context.program(**texts)
+        except moderngl.Error as error:
+            path, line, message = driverlog.locate(str(error), sources)
+            where = f"{path}:{line}: " if path else ""
+            raise Mistake(f"{where}the driver does not compile this: {message}") from None
+
+    def _mesh(self, one):
+        """Return (Geometry, digest, vertex, tangent and index buffer) of an object's mesh."""
+        tangents = "tangent" in one.model.needs
+        key = (one.mesh, one.crease, tangents)
+        if key not in self._meshes:
+            mesh, digest = geometry.load(one.mesh, crease=one.crease, tangents=tangents)
+            buffers = (mesh.vertices, mesh.tangents, mesh.indices)
+            made = (self.context.buffer(b) if len(b) else None for b in buffers)
+            self._meshes[key] = (mesh, digest, *made)
+        return self._meshes[key]
+
+    def _array(self, program, entry):
+        """Return the vertex array that feeds a mesh to a program, without what it does not take."""
+        key = (program, entry[2])
+        if key not in self._arrays:
+            names = ("rig_vertex", "rig_vertex_normal")
+            form = " ".join("3f" if name in program else "12x" for name in names)
+            content = [(entry[2], form, *(name for name in names if name in program))]
+            if "rig_vertex_tangent" in program:
+                content.append((entry[3], "4f", "rig_vertex_tangent"))
+            self._arrays[key] = self.context.vertex_array(program, content, entry[4])
+        return self._arrays[key]
+
+    def _target(self, width, rows, side, linear):
+        """Return framebuffers (radiance, picture) for strips of a picture, kept while they fit."""
+        key = (width, rows, side, linear)
+        if key not in self._targets:
+            self._release_targets()
+            context, size = self.context, (width * side, rows * side)
+            radiance = [context.texture(size, 4, dtype="f4")]
+            radiance = context.framebuffer(radiance, context.depth_renderbuffer(size))
+            pixels = context.texture((width, rows), 4, dtype="f4" if linear else "f1")
+            picture = context.framebuffer([pixels, context.texture((width, rows), 1)])
+            if context.error != "GL_NO_ERROR":
+                raise Mistake(f"the driver has no memory for {width} x {rows} pixels; draw smaller")
+            self._targets[key] = (radiance, picture)
+        return self._targets[key]
+
+    def _release_targets(self):
+        for framebuffer in (f for pair in self._targets.values() for f in pair):
+            for attachment in (*framebuffer.color_attachments, framebuffer.depth_attachment):
+                if attachment:
+                    attachment.release()
+            framebuffer.release()
+        self._targets.clear()
+
+    def _check_size(self, width, height, side):
+        info = self.context.info
+        most = min(info["GL_MAX_TEXTURE_SIZE"], *info["GL_MAX_VIEWPORT_DIMS"])
+        if max(width, height) * side > most:
+            raise Mistake(
+                f"size {width}x{height} with {side * side} samples is more than this driver draws; "
+                f"allowed: up to {most // side} pixels a side, or {most} with samples = 1"
+            )
+
+
+def _columns(matrix, n):
+    """Return the bytes of an n x n matrix as OpenGL wants them, column by column."""
+    return struct.pack(f"{n * n}f", *(matrix[n * i + j] for j in range(n) for i in range(n)))
+
+
+def _uniforms(shader, values, scene, suffix):
+    """Return {name: bytes} of the parameters that are set while running."""
+    packed = {}
+    for parameter in shader.parameters:
+        if parameter.constant:
+            continue
+        value = scene.time if parameter.widget == "time" else values[parameter.name]
+        if parameter.degrees:
+            value = math.radians(value)
+        if parameter.widget == "direction":
+            length = math.hypot(*value)
+            value = [v / length for v in value]
+        numbers = value if isinstance(value, (tuple, list)) else (value,)
+        form = "i" if parameter.type == "int" else "f"
+        packed[parameter.name + suffix] = struct.pack(f"{len(numbers)}{form}", *numbers)
+    return packed

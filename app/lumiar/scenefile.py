@@ -1,0 +1,270 @@
+"""Scenes as TOML text, in files of their own and inside the pictures that Lumiar makes."""
+
+import os
+import re
+from dataclasses import dataclass, replace
+from functools import partial
+
+from . import cache, catalog, geometry, settings, tomltext
+from .errors import Mistake, nearest
+from .files import ASSETS, read_bytes
+from .parts import CAMERA, OBJECT, SCENE, Camera, Light, Object, Panel
+from .tomltext import Place
+
+LIMIT = 1 << 20  # bytes of a scene file
+SECTIONS = {"camera": 1, "object": 256, "light": 64, "panel": 256, "content": 1024}  # at most
+LANGUAGES = ("en", "pt")
+_KEYWORD = b"lumiar"  # of the PNG text chunk that holds the scene
+
+
+@dataclass(frozen=True)
+class _File:
+    """A scene file being read: its text, its path, the digests it knows of files elsewhere."""
+
+    text: str
+    path: str
+    content: dict
+
+    @property
+    def folder(self):
+        return os.path.dirname(os.path.abspath(self.path))
+
+    def at(self, key, section="", index=0):
+        """Return the Place of a key."""
+        return Place(self.text, self.path, key, section, index)
+
+
+def shipped():
+    """Return the scenes that come with Lumiar, {name: path}."""
+    folder = os.path.join(ASSETS, "scenes")
+    files = (f for f in sorted(os.listdir(folder)) if f.endswith(".toml"))
+    return {f[:-5]: os.path.join(folder, f) for f in files}
+
+
+def parse(text, path, base):
+    """Return the scene of TOML text that came from `path`; raise Mistake naming path:line.
+
+    What the text leaves out is as in the scene `base`.
+    """
+    data = tomltext.parse(text, path)
+    file = _File(text, path, data.get("content", {}))
+    _check_keys(data, [*SCENE, *SECTIONS, "title"], file.at)
+    for section, most in SECTIONS.items():
+        form = dict if section in ("camera", "content") else list
+        given = data.get(section, form())
+        tables = given if form is list else ()
+        if not isinstance(given, form) or not all(isinstance(table, dict) for table in tables):
+            sample = f"[{section}]" if form is dict else f"[[{section}]]"
+            raise Mistake(f"{file.at(section)}'{section}' is a section; write {sample}")
+        if form is list and len(given) > most:
+            raise Mistake(f"{file.at(section)}{len(given)} of {section}; allowed: up to {most}")
+    given = {k: settings.scene_value(k, v, file.at(k)) for k, v in data.items() if k in SCENE}
+    if "title" in data:
+        given["title"] = _words(data["title"], "title", file.at("title"))
+    if "camera" in data:
+        given["camera"] = _camera(file, data["camera"])
+    if "object" in data:
+        given["objects"] = tuple(_object(file, i, one) for i, one in enumerate(data["object"]))
+        if not given["objects"]:
+            raise Mistake(f"{file.at('object')}a scene needs an object; write [[object]]")
+    if "light" in data:
+        given["lights"] = tuple(_light(file, i, one) for i, one in enumerate(data["light"]))
+    scene = replace(base, **given)
+    panels = (_panel(file, i, one, scene) for i, one in enumerate(data.get("panel", ())))
+    return replace(scene, panels=tuple(panels))
+
+
+def dump(scene, folder, digests=None):
+    """Return the TOML text of a Scene, complete, with paths relative to `folder` where inside it.
+
+    A file elsewhere is written with its full path, and its SHA-256 under [content]: only a scene
+    that knows what is in a file may open it there. digests maps paths to digests already known.
+    """
+    import tomli_w
+
+    content = {}
+
+    def written(name, kind):
+        if not os.path.isabs(name):
+            return name
+        if _inside(name, folder):
+            return os.path.relpath(os.path.realpath(name), os.path.realpath(folder))
+        content[name] = (digests or {}).get(name) or _digest(name, kind)
+        return name
+
+    def setting(key, value):
+        kind = key.rpartition(".")[2]
+        return written(value, kind) if kind in ("mesh", "model") else value
+
+    data = {key: getattr(scene, key) for key in SCENE}
+    data["title"] = scene.title
+    data["camera"] = {key: getattr(scene.camera, key) for key in CAMERA}
+    data["object"] = [
+        {
+            "name": one.name,
+            "mesh": written(one.mesh, "mesh"),
+            "model": written(one.model.name, "model"),
+            **{key: getattr(one, key) for key in OBJECT},
+            **one.values,
+        }
+        for one in scene.objects
+    ]
+    data["light"] = [
+        {"name": one.name, "kind": written(one.kind.name, "light"), **one.values}
+        for one in scene.lights
+    ]
+    data["panel"] = [
+        {
+            "caption": panel.caption,
+            "scene": written(panel.scene, "scene"),
+            "set": {key: setting(key, value) for key, value in panel.values},
+        }
+        for panel in scene.panels
+    ]
+    data["content"] = content
+    text = tomli_w.dumps(_without_empty(data))
+    return re.sub(r"\[\n((?:    [^\n]*,\n)+)\]", _on_one_line, text)
+
+
+def embedded(data, path):
+    """Return the scene text that the bytes of a PNG carry; raise Mistake, naming path, if none."""
+    if not data.startswith(b"\x89PNG\r\n\x1a\n"):
+        raise Mistake(f"{path}: not a PNG picture; name one that Lumiar made, or a .toml scene")
+    start = 8
+    while start + 8 <= len(data):
+        length = int.from_bytes(data[start : start + 4], "big")
+        if data[start + 4 : start + 8] == b"iTXt":
+            keyword, _, rest = data[start + 8 : start + 8 + length].partition(b"\0")
+            if keyword == _KEYWORD and len(rest) <= LIMIT and rest[:4] == b"\0\0\0\0":
+                try:
+                    return rest[4:].decode()
+                except UnicodeDecodeError:
+                    break
+        start += 12 + length
+    raise Mistake(f"{path}: carries no scene; name a PNG that Lumiar made, or a .toml scene")
+
+
+def chunk(text):
+    """Return (type, contents) of the PNG chunk that carries the text of a scene."""
+    return b"iTXt", _KEYWORD + b"\0\0\0\0\0" + text.encode()
+
+
+def _check_keys(data, allowed, where):
+    for key in data:
+        if key not in allowed:
+            raise Mistake(f"{where(key)}unknown key '{key}'; {nearest(key, allowed)}")
+
+
+def _words(value, key, where):
+    """Return {language: line} for text that people read."""
+    words = {"en": value} if isinstance(value, str) else value
+    good = isinstance(words, dict) and all(
+        k in LANGUAGES and isinstance(v, str) and len(v) <= 200 for k, v in words.items()
+    )
+    if not good:
+        raise Mistake(f'{where}{key} is a line of text, or {{ en = "…", pt = "…" }}')
+    return words
+
+
+def _camera(file, data):
+    where = partial(file.at, section="camera")
+    _check_keys(data, CAMERA, where)
+    camera = Camera(**{key: CAMERA[key].check(value, where(key)) for key, value in data.items()})
+    if camera.position and camera.position == camera.target:
+        raise Mistake(f"{where('target')}the eye stands on its target; move one of them")
+    return camera
+
+
+def _object(file, index, data):
+    where = partial(file.at, section="object", index=index)
+    names = _names(data, {"name": "", "mesh": "sphere", "model": "phong"}, where)
+    _confine(file, names["mesh"], "mesh", where("mesh"))
+    _confine(file, names["model"], "model", where("model"))
+    mesh = geometry.canonical(names["mesh"], file.folder, where("mesh"))
+    model = catalog.read("model", names["model"], where("model"), file.folder)
+    _check_keys(data, [*catalog.OWN_KEYS["model"], *model.defaults()], where)
+    own, values = {}, model.defaults()
+    for key, value in data.items():
+        if key in OBJECT:
+            own[key] = settings.object_value(key, value, where(key))
+        elif key not in names:
+            values[key] = model.parameter(key).check(value, where(key))
+    return Object(model, values, mesh, names["name"], **own)
+
+
+def _light(file, index, data):
+    where = partial(file.at, section="light", index=index)
+    names = _names(data, {"name": "", "kind": "directional"}, where)
+    _confine(file, names["kind"], "light", where("kind"))
+    kind = catalog.read("light", names["kind"], where("kind"), file.folder)
+    _check_keys(data, [*catalog.OWN_KEYS["light"], *kind.defaults()], where)
+    given = {k: kind.parameter(k).check(v, where(k)) for k, v in data.items() if k not in names}
+    return Light(kind, {**kind.defaults(), **given}, names["name"])
+
+
+def _panel(file, index, data, scene):
+    where = partial(file.at, section="panel", index=index)
+    _check_keys(data, ["caption", "scene", "set"], where)
+    other = _names(data, {"scene": ""}, where)["scene"]
+    if other and other not in shipped():
+        _confine(file, other, "scene", where("scene"))
+        other = os.path.join(file.folder, other)
+    values, given = [], data.get("set", {})
+    if not isinstance(given, dict):
+        raise Mistake(f"{where('set')}set = {given!r}; write set = {{ key = value, … }}")
+    for key, value in given.items():
+        kind = key.rpartition(".")[2]
+        if kind in ("mesh", "model"):
+            _confine(file, str(value), kind, where("set"))
+        value = tuple(value) if isinstance(value, list) else value
+        value = settings.canonical(key, value, where("set"), file.folder)
+        scene = settings.changed(scene, key, value, where("set"))
+        values.append((key, value))
+    caption = _words(data.get("caption", {}), "caption", where("caption"))
+    return Panel(caption, tuple(values), other)
+
+
+def _names(data, defaults, where):
+    """Return the texts among `data`; defaults maps their keys to what they are when left out."""
+    for key in defaults:
+        if not isinstance(data.get(key, ""), str):
+            raise Mistake(f'{where(key)}{key} = {data[key]!r}; write text in quotes: "…"')
+    return {key: data.get(key, fallback) for key, fallback in defaults.items()}
+
+
+def _confine(file, name, kind, where):
+    """Refuse a path outside the folder of the scene, unless the scene knows what is in it."""
+    ending = geometry.FORMATS if kind == "mesh" else (".toml",) if kind == "scene" else (".glsl",)
+    if not name.lower().endswith(ending):
+        return  # no path: the name of something that comes with Lumiar, or a mistake told later
+    path = os.path.abspath(os.path.join(file.folder, os.path.expanduser(name)))
+    if _inside(path, file.folder):
+        return
+    advice = f"put it beside the scene, or name it on the command line with --{kind}"
+    if name not in file.content:
+        raise Mistake(f"{where}{name} lies outside the folder of the scene; {advice}")
+    if file.content[name] != _digest(path, kind):
+        raise Mistake(f"{where}{name} is no longer what this scene was made with; {advice}")
+
+
+def _inside(path, folder):
+    return os.path.realpath(path).startswith(os.path.join(os.path.realpath(folder), ""))
+
+
+def _digest(path, kind):
+    if kind == "mesh":
+        data = read_bytes(path, geometry.FILE_LIMIT, "a mesh file")
+        return geometry.content_digest(path, data)
+    return cache.digest(read_bytes(path, LIMIT, "a text file"))
+
+
+def _on_one_line(found):
+    return f"[{' '.join(line.strip() for line in found.group(1).splitlines())[:-1]}]"
+
+
+def _without_empty(data):
+    """Return nested data without what is None, or empty: its absence says the same."""
+    if isinstance(data, dict):
+        pairs = ((key, _without_empty(value)) for key, value in data.items())
+        return {key: value for key, value in pairs if value not in (None, "", {}, [])}
+    return [_without_empty(value) for value in data] if isinstance(data, list) else data

@@ -1,0 +1,142 @@
+"""Changing one value of a scene by its name, as `--set`, `--vary`, panels and the window do."""
+
+import math
+from dataclasses import replace
+
+from . import catalog, geometry
+from .errors import Mistake, nearest
+from .parts import CAMERA, OBJECT, SCENE, Light
+
+
+def changed(scene, key, value, where="", folder=""):
+    """Return the scene with one value changed.
+
+    key    a value of the scene (`exposure`) or of its camera (`camera.fov`); `model`, `mesh` and
+           the values of objects (`rotation`), for all objects; `light`, which replaces all lights;
+           a parameter (`shininess`), for all objects whose model has it, else for all such lights;
+           or one of those behind the name or number of an object or light: `left.kd`,
+           `object.2.mesh`, `light.1.color`, `point.intensity`
+    value  as a scene file has it, or text as on the command line
+    folder where relative paths begin
+
+    Raises Mistake, its line beginning with `where`, naming what is allowed.
+    """
+    if key in SCENE:
+        return replace(scene, **{key: scene_value(key, _typed(SCENE[key], value, where), where)})
+    first, _, rest = key.partition(".")
+    if first == "camera" and rest in CAMERA:
+        value = CAMERA[rest].check(_typed(CAMERA[rest], value, where), where)
+        return replace(scene, camera=replace(scene.camera, **{rest: value}))
+    if key == "light":
+        return replace(scene, lights=(light(str(value), where, folder),))
+    objects, lights, rest = _addressed(scene, key)
+    in_objects = [o for o in objects if rest in ("model", "mesh") or _has(o, rest)]
+    in_lights = [] if in_objects else [x for x in lights if rest in x.values]
+    if not in_objects and not in_lights:
+        raise Mistake(f"{where}no value '{key}'; {nearest(key, keys(scene))}")
+    return replace(
+        scene,
+        objects=_exchanged(scene.objects, in_objects, _object_with, rest, value, where, folder),
+        lights=_exchanged(scene.lights, in_lights, _light_with, rest, value, where, folder),
+    )
+
+
+def keys(scene):
+    """Return every key that `changed` takes for this scene, without those behind numbers."""
+    names = [*SCENE, *(f"camera.{name}" for name in CAMERA), "model", "mesh", "light", *OBJECT]
+    for one in (*scene.objects, *scene.lights):
+        names += one.values
+        names += (f"{one.name}.{value}" for value in one.values if one.name)
+    return dict.fromkeys(names)
+
+
+def canonical(key, value, where="", folder=""):
+    """Return a value that means the same wherever the scene goes: paths in full."""
+    kind = key.rpartition(".")[2]
+    if kind == "mesh":
+        return geometry.canonical(str(value), folder, where)
+    return catalog.read("model", str(value), where, folder).name if kind == "model" else value
+
+
+def scene_value(key, value, where=""):
+    """Return a checked value of the scene itself; samples must be a square."""
+    value = SCENE[key].check(value, where)
+    if key == "samples" and math.isqrt(value) ** 2 != value:
+        raise Mistake(f"{where}samples = {value} is not possible; allowed: {SCENE[key].text}")
+    return value
+
+
+def object_value(key, value, where=""):
+    """Return a checked value of an object itself; a scale must not flatten it."""
+    value = OBJECT[key].check(value, where)
+    if key == "scale" and 0.0 in value:
+        raise Mistake(f"{where}scale = {value} flattens the mesh; allowed: any number but 0")
+    return value
+
+
+def light(spec, where="", folder=""):
+    """Return the Light that text such as `point:intensity=80:position=0,2,0` describes."""
+    name, *values = spec.split(":")
+    kind = catalog.read("light", name, where, folder)
+    one = Light(kind, kind.defaults())
+    for setting in values:
+        key, _, value = setting.partition("=")
+        one = _light_with(one, key, value, where, folder)
+    return one
+
+
+def _addressed(scene, key):
+    """Return (objects, lights, rest of the key) that a key may speak of."""
+    first, _, rest = key.partition(".")
+    number, _, last = rest.partition(".")
+    if first in ("object", "light") and number.isdigit():
+        among = scene.objects if first == "object" else scene.lights
+        chosen = among[int(number) - 1 : int(number)] if int(number) else ()
+        return (chosen, (), last) if first == "object" else ((), chosen, last)
+    if rest:
+        objects = [o for o in scene.objects if o.name == first]
+        return objects, [x for x in scene.lights if first in (x.name, x.kind.name)], rest
+    return scene.objects, scene.lights, key
+
+
+def _exchanged(every, chosen, change, *arguments):
+    return tuple(change(one, *arguments) if any(one is c for c in chosen) else one for one in every)
+
+
+def _has(one, key):
+    return key in OBJECT or key in one.values
+
+
+def _object_with(one, key, value, where, folder):
+    if key == "mesh":
+        return replace(one, mesh=geometry.canonical(str(value), folder, where))
+    if key == "model":
+        return _with_model(one, catalog.read("model", str(value), where, folder))
+    if key in OBJECT:
+        value = object_value(key, _typed(OBJECT[key], value, where), where)
+        return replace(one, **{key: value})
+    parameter = one.model.parameter(key, where)
+    value = parameter.check(_typed(parameter, value, where), where)
+    return replace(one, values={**one.values, key: value})
+
+
+def _with_model(one, model):
+    """Return an object with another model; what was set by hand and still fits is kept."""
+    values = model.defaults()
+    for key, value in one.values.items():
+        if key in values and value != one.model.parameter(key).default:
+            try:
+                values[key] = model.parameter(key).check(value)
+            except Mistake:
+                continue  # the other model's domain does not hold it: its own default stays
+    return replace(one, model=model, values=values)
+
+
+def _light_with(one, key, value, where, _folder):
+    parameter = one.kind.parameter(key, where)
+    value = parameter.check(_typed(parameter, value, where), where)
+    return replace(one, values={**one.values, key: value})
+
+
+def _typed(parameter, value, where):
+    return parameter.read(value, where) if isinstance(value, str) else value

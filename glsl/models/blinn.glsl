@@ -1,0 +1,36 @@
+// model   Blinn
+// paper   J. F. Blinn, "Models of light reflection for computer synthesized pictures",
+//         SIGGRAPH 1977, p. 192-198; normalised form: F. Giesen, "Phong and Blinn-Phong
+//         normalization factors", 2009
+// claims  positive, reciprocal (form = normalised)
+// note    I = k_a I_a + k_d I_d cos(theta) + k_s I_s cos(phi)^alpha', phi between N and H; a highlight
+//         as wide as Phong's takes alpha' of about 4 alpha
+#include "lib/constants.glsl"
+#include "lib/lobe.glsl"
+
+uniform vec3 ka = vec3(0.1);      // color: k_a, reflected share of the ambient light (unitless)
+uniform vec3 kd = vec3(0.5);      // color: k_d, diffuse share (unitless)
+uniform vec3 ks = vec3(0.4);      // color: k_s, specular share (unitless)
+uniform float shininess = 160.0;  // [1, 4000 ..] log: alpha', exponent of the lobe (unitless)
+uniform int form = 0;             // {slide, normalised}: as published, or each lobe of albedo k
+uniform bool ambient = true;      // toggle: the ambient term
+uniform bool diffuse = true;      // toggle: the diffuse term
+uniform bool specular = true;     // toggle: the specular term
+
+vec3 scatter(vec3 L, vec3 V) {
+    if (L.z <= 0.0) return vec3(0.0);
+    vec3 value = vec3(0.0);
+    if (diffuse) value += kd * L.z;
+    vec3 H = L + V;
+    if (specular && H.z > 0.0) {  // H.z <= 0: the eye is below the surface, and H may vanish
+        float h = length(H);
+        float lobe = cos_power(dot(H.xy, H.xy) / (h * (h + H.z)), shininess);
+        float scale = (shininess + 2.0) * (shininess + 4.0) / (8.0 * (exp2(-0.5 * shininess) + shininess));
+        value += form == FORM_SLIDE ? ks * lobe : ks * (scale * lobe * L.z);
+    }
+    return value / PI;
+}
+
+vec3 surround(vec3 V) {
+    return ambient ? ka * environment(vec3(0.0, 0.0, 1.0)) : vec3(0.0);
+}

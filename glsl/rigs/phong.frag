@@ -1,0 +1,16 @@
+// The normal is interpolated; the model is evaluated at every pixel.
+#include "rigs/shade.glsl"
+
+in vec3 rig_position;
+in vec3 rig_normal;
+in vec4 rig_tangent;  // where tangent
+
+out vec4 rig_out;
+
+void main() {
+    vec3 N = normalize(rig_normal);
+    N = gl_FrontFacing ? N : -N;  // where two_sided
+    Frame frame = Frame(N);  // where not tangent
+    Frame frame = tangent_frame(N, rig_tangent);  // where tangent
+    rig_out = vec4(rig_radiance(rig_position, frame), 1.0);
+}
