@@ -2,7 +2,7 @@
 
 import os
 import re
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from .catalog import SOURCE_LIMIT, read, without_comments
 from .errors import Mistake
@@ -29,8 +29,7 @@ _TOKEN = re.compile(r"(#(?:\\\n|[^\n])*)|([A-Za-z_]\w*)|(\n)|[{}()\[\];,=]|\.\s*
 _ALWAYS = {"layout", "in", "out", "flat", "smooth", "noperspective", "centroid", "precision"}
 
 
-@dataclass(frozen=True)
-class Source:
+class Source(NamedTuple):
     """The GLSL text of one stage; lines[i] is the (file, line) that its line i + 1 came from."""
 
     text: str

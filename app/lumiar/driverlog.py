@@ -5,7 +5,7 @@ import re
 _FORMS = (
     re.compile(r"\d+:(\d+)\(\d+\):\s*(.*)"),  # Mesa: 0:7(32): error: …
     re.compile(r"\d+\((\d+)\)\s*:\s*(.*)"),  # NVIDIA: 0(7) : error C1008: …
-    re.compile(r"(?:ERROR|WARNING):\s*\d+:(\d+):\s*(.*)"),  # AMD, Intel, Apple, glslang
+    re.compile(r"ERROR:\s*\d+:(\d+):\s*(.*)"),  # AMD, Intel, Apple, glslang
 )
 
 

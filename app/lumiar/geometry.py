@@ -5,7 +5,7 @@ import os
 import re
 import struct
 import sys
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from . import cache
 from .errors import Mistake, nearest
@@ -65,8 +65,7 @@ SHAPES = {
 }
 
 
-@dataclass(frozen=True)
-class Geometry:
+class Geometry(NamedTuple):
     """A mesh as the graphics card takes it, and what is known of it.
 
     vertices  bytes: per vertex the position and the unit normal, 6 float32

@@ -1,15 +1,14 @@
 """Where everything in a scene stands, and what each object needs compiled. Draws nothing."""
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from . import camera, compose
 from .geometry import Geometry
 from .parts import Object
 
 
-@dataclass(frozen=True)
-class Placed:
+class Placed(NamedTuple):
     """An object in its place.
 
     world  matrix from object space to the scene; clip from object space to clip space (see camera)

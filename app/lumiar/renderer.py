@@ -3,7 +3,7 @@
 import math
 import struct
 from contextlib import suppress
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import moderngl
 
@@ -14,8 +14,7 @@ STRIP = 1 << 23  # samples drawn at a time: bounds the memory (180 MB) and the l
 INSTALL = "install a driver: on Debian or Ubuntu `apt install libegl1 libgl1-mesa-dri`"
 
 
-@dataclass(frozen=True)
-class _Job:
+class _Job(NamedTuple):
     """One object ready to draw: what to bind, how its faces wind, what to set."""
 
     array: object

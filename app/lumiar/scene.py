@@ -72,10 +72,8 @@ class Scene:
 
         For example scene.set(mesh="teapot", shininess=80, camera__fov=20).
         """
-        scene = self
-        for key, value in values.items():
-            scene = scene.changed(key.replace("__", "."), value)
-        return scene
+        pairs = [(key.replace("__", "."), value) for key, value in values.items()]
+        return settings.all_changed(self, pairs)
 
     def toml(self, folder="", digests=None):
         """Return the scene as TOML text for a file in `folder`; see `scenefile.dump`."""

@@ -2,8 +2,9 @@
 
 import os
 import re
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
+from typing import NamedTuple
 
 from . import cache, catalog, geometry, settings, tomltext
 from .errors import Mistake, nearest
@@ -17,8 +18,7 @@ LANGUAGES = ("en", "pt")
 _KEYWORD = b"lumiar"  # of the PNG text chunk that holds the scene
 
 
-@dataclass(frozen=True)
-class _File:
+class _File(NamedTuple):
     """A scene file being read: its text, its path, the digests it knows of files elsewhere."""
 
     text: str

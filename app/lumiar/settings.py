@@ -41,6 +41,16 @@ def changed(scene, key, value, where="", folder=""):
     )
 
 
+def all_changed(scene, pairs, where="", folder=""):
+    """Return the scene with every (key, value) changed; models first, whatever the order.
+
+    A model brings its own defaults along, which must not undo what was set beside it.
+    """
+    for key, value in sorted(pairs, key=lambda pair: pair[0].rpartition(".")[2] != "model"):
+        scene = changed(scene, key, value, where, folder)
+    return scene
+
+
 def keys(scene):
     """Return every key that `changed` takes for this scene, without those behind numbers."""
     names = [*SCENE, *(f"camera.{name}" for name in CAMERA), "model", "mesh", "light", *OBJECT]

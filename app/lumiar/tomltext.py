@@ -1,13 +1,12 @@
 """TOML text as data, and the line on which each of its keys stands (tomllib does not tell)."""
 
 import re
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from .errors import Mistake
 
 
-@dataclass(frozen=True)
-class Place:
+class Place(NamedTuple):
     """Where a key stands, as the beginning of a message; worked out only when it is shown.
 
     section is the name of a table or list of tables, empty for the top; index counts from 0.

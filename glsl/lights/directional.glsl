@@ -1,9 +1,9 @@
 // light   Directional: so far away that its rays are parallel
 #include "lib/light.glsl"
 
-uniform vec3 direction = vec3(0.5, 0.7, 0.6);  // direction: toward the light
-uniform vec3 color = vec3(1.0);                // color: colour of the light (unitless)
-uniform float irradiance = 3.14159265;         // [0, 20 ..]: E on a surface that faces it (W/m^2)
+uniform vec3 direction = vec3(0.75, 0.8, 0.6);  // direction: toward the light
+uniform vec3 color = vec3(1.0);                   // color: colour of the light (unitless)
+uniform float irradiance = 3.14159265;            // [0, 20 ..]: E on a surface that faces it (W/m^2)
 
 Incident light(vec3 place, vec2 u) {
     return Incident(direction, irradiance * color);

@@ -12,7 +12,7 @@ out vec3 rig_back;  // where two_sided
 void main() {
     gl_Position = rig_projected(rig_vertex);
     vec3 position = rig_placed(rig_vertex);
-    vec3 N = normalize(rig_turned(rig_vertex_normal));
+    vec3 N = rig_turned(rig_vertex_normal);
     vec4 tangent = rig_along(rig_vertex_tangent);  // where tangent
     rig_front = rig_radiance(position, Frame(N));  // where not tangent
     rig_front = rig_radiance(position, tangent_frame(N, tangent));  // where tangent

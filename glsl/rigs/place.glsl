@@ -3,18 +3,18 @@ uniform mat4 rig_clip;   // object space to clip space
 uniform mat4 rig_world;  // object space to world space
 uniform mat3 rig_turn;   // the same for normals: the inverse of its 3x3 part, transposed
 
-vec4 rig_projected(vec3 point) {
-    return rig_clip * vec4(point, 1.0);
+vec4 rig_projected(vec3 p) {
+    return rig_clip * vec4(p, 1.0);
 }
 
-vec3 rig_placed(vec3 point) {
-    return point;  // where not transformed
-    return (rig_world * vec4(point, 1.0)).xyz;  // where transformed
+vec3 rig_placed(vec3 p) {
+    return p;  // where not transformed
+    return (rig_world * vec4(p, 1.0)).xyz;  // where transformed
 }
 
 vec3 rig_turned(vec3 normal) {
     return normal;  // where not transformed
-    return rig_turn * normal;  // where transformed
+    return normalize(rig_turn * normal);  // where transformed
 }
 
 vec4 rig_along(vec4 tangent) {

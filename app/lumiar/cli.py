@@ -1,0 +1,71 @@
+"""argv → one of the verbs, in a supervised child; every mistake one line, exit codes as in HELP."""
+
+import os
+import sys
+
+VERBS = ("capture", "info", "source", "compare", "list")
+HELP = """usage: lumiar VERB … (lumiar VERB --help tells more)
+
+  capture [SCENE]  draw a scene to a picture: .png, or .hdr and .npy for linear radiance
+  info FILE        what a mesh, a model, a light, a scene or a Lumiar picture holds
+  source [SCENE]   the GLSL of a scene, exactly as compiled
+  compare A B      how two pictures differ; exit code 1 beyond a limit you give
+  list             the models, lights, meshes and scenes there are
+
+SCENE is a shipped scene, a .toml file, a .png that Lumiar made, a mesh or a .glsl model.
+exit codes: 0 done; 1 the renderer or the disk failed, or compare found too much; 2 a mistake in
+what was given; 3 broken pixels under --strict; 130 and 143 interrupted and terminated"""
+
+
+def main(argv=None):
+    """Run a command line and return its exit code; rendering happens in a supervised child."""
+    from .supervise import supervised
+
+    argv = sys.argv[1:] if argv is None else argv
+    return supervised(lambda: run(argv))
+
+
+def run(argv):
+    """Run a command line in this process and return its exit code."""
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # NumPy then starts sooner; ours is small
+    from .errors import Mistake, one_line
+
+    try:
+        return _dispatch(argv)
+    except Mistake as mistake:
+        print(f"lumiar: {one_line(_shortened(str(mistake)))}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        name = f" {error.filename}" if error.filename else ""
+        print(f"lumiar: cannot write{name}: {one_line(error.strerror or error)}", file=sys.stderr)
+        return 1
+    except MemoryError:
+        print("lumiar: not enough memory; draw a smaller picture or mesh", file=sys.stderr)
+        return 1
+
+
+def _dispatch(argv):
+    from .errors import Mistake, nearest
+
+    if not argv or argv[0] in ("-h", "--help", "help"):
+        print(HELP)
+        return 0
+    if argv[0] == "--version":
+        from . import __version__
+
+        print(f"lumiar {__version__}")
+        return 0
+    if argv[0] not in VERBS:
+        raise Mistake(f"no verb '{argv[0]}'; {nearest(argv[0], VERBS)}")
+    from . import options, verbs
+
+    return getattr(verbs, argv[0])(options.parse(argv[0], argv[1:]))
+
+
+def _shortened(message):
+    """Return a message with the paths of shipped shaders and of this folder made short."""
+    from .files import GLSL
+
+    for folder in (GLSL, os.getcwd()):
+        message = message.replace(folder + os.sep, "")
+    return message

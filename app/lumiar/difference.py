@@ -1,0 +1,69 @@
+"""How two pictures differ, in numbers and as a picture."""
+
+import numpy as np
+
+from .errors import Mistake
+
+
+def measure(a, b, threshold=0.0):
+    """Return {name: value} for two pictures (height, width, 3) of the same shape.
+
+    rmse       root of the mean square difference over all channels
+    max        largest difference of a channel
+    share      share of the pixels with a channel that differs by more than `threshold`
+    not_finite number of pixels with a NaN or infinite channel in either; they count in `share`, and
+               rmse and max are over the others
+    """
+    with np.errstate(invalid="ignore"):
+        difference = np.abs(a.astype(np.float64) - b.astype(np.float64))
+    finite = np.isfinite(a).all(2) & np.isfinite(b).all(2)
+    good = difference[finite]
+    return {
+        "rmse": float(np.sqrt(np.mean(good**2))) if good.size else 0.0,
+        "max": float(good.max()) if good.size else 0.0,
+        "share": float(np.mean(~finite | (difference > threshold).any(2))),
+        "not_finite": int(np.count_nonzero(~finite)),
+    }
+
+
+def flip(a, b, linear):
+    """Return the mean FLIP error of picture b against reference a, in [0, 1].
+
+    P. Andersson et al., "FLIP: a difference evaluator for alternating images", HPG 2020; for linear
+    radiance HDR-FLIP, 2021. Raises ImportError where its package has no build for this Python.
+    """
+    import flip_evaluator
+
+    if linear:
+        a, b = np.maximum(np.nan_to_num(a), 0.0), np.maximum(np.nan_to_num(b), 0.0)
+    kind = "HDR" if linear else "LDR"
+    _, mean, _ = flip_evaluator.evaluate(
+        np.ascontiguousarray(a), np.ascontiguousarray(b), kind, applyMagma=False
+    )
+    return float(mean)
+
+
+def picture(a, b):
+    """Return (bytes of sRGB, difference that is shown as white) of where two pictures differ.
+
+    Grey shows the largest difference of a pixel's channels, its root so that small ones show too;
+    magenta a pixel that is not finite.
+    """
+    with np.errstate(invalid="ignore"):
+        largest = np.abs(a.astype(np.float64) - b.astype(np.float64)).max(2)
+    finite = np.isfinite(largest)
+    white = float(largest[finite].max()) if finite.any() else 0.0
+    grey = np.sqrt(np.where(finite, largest, 0.0) / (white or 1.0))
+    pixels = np.repeat(grey[..., None], 3, axis=2)
+    pixels[~finite] = [1.0, 0.0, 1.0]
+    return (pixels * 255.0 + 0.5).astype(np.uint8).tobytes(), white
+
+
+def check_alike(a, b, names):
+    """Raise Mistake unless two (array, whether linear) pictures can be compared."""
+    (one, linear), (other, other_linear) = a, b
+    if linear != other_linear:
+        raise Mistake(f"{names[0]} and {names[1]}: one is 8-bit sRGB, the other linear radiance")
+    if one.shape != other.shape:
+        sizes = " and ".join(f"{p.shape[1]}x{p.shape[0]}" for p in (one, other))
+        raise Mistake(f"{names[0]} and {names[1]} differ in size: {sizes}; make them alike")

@@ -1,0 +1,188 @@
+"""The options of each verb, and the scene that they describe."""
+
+import argparse
+import os
+import re
+from dataclasses import replace
+
+from .errors import Mistake
+
+SHEET_CELL = 384  # pixels of the long side of a picture varied on a sheet, where no size is given
+
+
+class _Help(argparse.HelpFormatter):
+    """Help 100 columns wide; asking the terminal would import shutil and take 4 ms for nothing."""
+
+    def __init__(self, prog):
+        super().__init__(prog, max_help_position=34, width=100)
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise Mistake(f"{self.prog.split()[-1]}: {message}; `{self.prog} --help` tells more")
+
+
+def parse(verb, argv):
+    """Return the options of a verb as a Namespace; raise Mistake for what they cannot be."""
+    about, fill = _VERBS[verb]
+    parser = _Parser(
+        prog=f"lumiar {verb}", allow_abbrev=False, description=about, formatter_class=_Help
+    )
+    fill(parser)
+    return parser.parse_args(argv)
+
+
+def scene(options):
+    """Return the Scene that the options of `capture` or `source` describe."""
+    from . import settings
+    from .scene import Scene
+
+    here = os.getcwd()
+    one = Scene.load(options.scene, here) if options.scene else Scene.default()
+    for key in ("model", "mesh", "shading"):
+        value = getattr(options, key)
+        if value is not None:
+            one = one.changed(key, value, f"--{key}: ", here)
+    if options.light:
+        lights = (settings.light(spec, "--light: ", here) for spec in options.light)
+        one = replace(one, lights=tuple(lights))
+    pairs = []
+    for setting in options.set:
+        key, equals, value = setting.partition("=")
+        if not equals:
+            raise Mistake(f"--set {setting}: write --set key=value")
+        pairs.append((key.strip(), value))
+    return settings.all_changed(one, pairs, "--set: ", here)
+
+
+def varied(one, varies, sized):
+    """Return a Scene with a panel for each combination of values; varies are `key=a,b,c` texts.
+
+    sized says that the size of the pictures was chosen; otherwise they are made small.
+    """
+    from . import settings
+    from .parts import Panel
+
+    panels = [()]
+    for text in varies:
+        key, _, values = text.partition("=")
+        values = [v.strip() for v in re.findall(r"\[[^\]]*\]|[^,\[\]]+", values) if v.strip()]
+        if not values:
+            raise Mistake(f"--vary {text}: write --vary key=one,other; vectors as [1,0,0]")
+        if len(panels) * len(values) > 256:
+            raise Mistake(f"--vary {text}: more than 256 pictures; vary less")
+        values = [settings.canonical(key, v, "--vary: ", os.getcwd()) for v in values]
+        panels = [(*panel, (key, value)) for panel in panels for value in values]
+    for panel in panels:
+        settings.all_changed(one, panel, "--vary: ")
+    captions = [", ".join(f"{k} = {_shown(v)}" for k, v in panel) for panel in panels]
+    made = (Panel({"en": c}, panel) for c, panel in zip(captions, panels, strict=True))
+    if not sized:
+        share = min(1.0, SHEET_CELL / max(one.size))
+        one = replace(one, size=tuple(max(1, round(side * share)) for side in one.size))
+    return replace(one, panels=tuple(made), columns=min(len(values), 64))
+
+
+def _shown(value):
+    return os.path.basename(value) if os.path.isabs(value) else value
+
+
+def _scene_options(parser):
+    parser.add_argument(
+        "scene", nargs="?", metavar="SCENE", help="default: a sphere under one light"
+    )
+    parser.add_argument("--model", metavar="NAME|FILE.glsl", help="model of all objects")
+    parser.add_argument("--mesh", metavar="NAME|FILE", help="mesh of all objects: torus:minor=0.2")
+    parser.add_argument("--shading", metavar="RATE", help="flat, gouraud or phong")
+    parser.add_argument(
+        "--light",
+        action="append",
+        metavar="KIND[:KEY=VALUE…]",
+        help="replaces the lights of the scene; again for more: point:position=2,3,4:intensity=80",
+    )
+    parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="KEY=VALUE",
+        help="any value of the scene: shininess=80, camera.fov=20, object.2.kd=1,0,0",
+    )
+    _timeout(parser)
+
+
+def _timeout(parser):
+    text = "end after so long (default: 120)"
+    parser.add_argument("--timeout", type=_seconds, metavar="SECONDS", help=text)
+
+
+def _seconds(text):
+    return _number(text, "a number of seconds above 0", lambda x: 0.0 < x <= 1e6)
+
+
+def _limit(text):
+    return _number(text, "a number, 0 or more", lambda x: x >= 0.0)
+
+
+def _number(text, allowed, good):
+    try:
+        if good(float(text)):
+            return float(text)
+    except ValueError:
+        pass
+    raise argparse.ArgumentTypeError(f"'{text}' is not {allowed}")
+
+
+def _capture(parser):
+    _scene_options(parser)
+    parser.add_argument("--size", metavar="WxH", help="pixels, as 1024x768")
+    parser.add_argument("--samples", metavar="N", help="per pixel: 1, 4, 9, 16 …")
+    parser.add_argument(
+        "--vary",
+        action="append",
+        default=[],
+        metavar="KEY=A,B,C",
+        help="one picture for each value, on a captioned sheet; again for a grid",
+    )
+    parser.add_argument("-o", "--output", metavar="FILE", help=".png, .hdr or .npy")
+    parser.add_argument("--strict", action="store_true", help="exit code 3 for broken pixels")
+    parser.add_argument("--lang", choices=("en", "pt"), help="language of captions")
+
+
+def _source(parser):
+    _scene_options(parser)
+    parser.add_argument("--object", type=int, default=1, metavar="N", help="which object, from 1")
+
+
+def _info(parser):
+    parser.add_argument("file", metavar="FILE", help="or the name of something shipped")
+    parser.add_argument("--json", action="store_true", help="for programs")
+    _timeout(parser)
+
+
+def _compare(parser):
+    parser.add_argument("a", metavar="A", help=".png, .jpg, .hdr or .npy: the reference")
+    parser.add_argument("b", metavar="B", help="a picture of the same kind and size")
+    parser.add_argument("-o", "--output", metavar="FILE.png", help="picture of the difference")
+    parser.add_argument("--threshold", type=_limit, default=0.0, help="of a pixel that differs")
+    for name, text in (
+        ("rmse", "root mean square difference"),
+        ("error", "largest difference of a channel"),
+        ("share", "share of pixels over the threshold"),
+        ("flip", "mean FLIP error"),
+    ):
+        parser.add_argument(f"--max-{name}", type=_limit, metavar="X", help=f"highest {text}")
+    parser.add_argument("--json", action="store_true", help="for programs")
+
+
+def _list(parser):
+    parser.add_argument("kind", nargs="?", choices=("models", "lights", "meshes", "scenes"))
+    parser.add_argument("--json", action="store_true", help="with every parameter, for programs")
+
+
+_VERBS = {
+    "capture": ("Draw a scene to a picture, or to a captioned sheet of pictures.", _capture),
+    "info": ("Tell what a mesh, a model, a light, a scene or a Lumiar picture holds.", _info),
+    "source": ("Print the GLSL of a scene, each stage exactly as compiled.", _source),
+    "compare": ("Measure how picture B differs from A; exit 1 beyond a limit.", _compare),
+    "list": ("List what there is to choose from.", _list),
+}

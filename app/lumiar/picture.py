@@ -1,0 +1,139 @@
+"""Scene → picture: in memory, as a file, as a sheet of panels."""
+
+import os
+from dataclasses import replace
+from itertools import chain
+from typing import NamedTuple
+
+from . import files, image, scenefile, settings, sheet
+from .errors import Mistake
+from .renderer import Renderer
+from .scene import Scene
+
+DEPTH = 3  # sheets within sheets
+
+
+class Picture(NamedTuple):
+    """A picture as people see it.
+
+    pixels  bytes of sRGB, 3 per pixel, rows from the top
+    broken  number of pixels whose radiance is NaN or infinite; they are magenta
+    toml    the scene it was made from, which its PNG carries
+    """
+
+    size: tuple[int, int]
+    pixels: bytes
+    broken: int
+    toml: str
+
+    def _repr_png_(self):
+        return b"".join(image.png(self.size, [self.pixels], [scenefile.chunk(self.toml)]))
+
+    def save(self, path):
+        """Write the picture as a PNG, whole or not at all."""
+        if image.ending(path) != ".png":
+            raise Mistake(f"{path}: write a .png; `capture(scene, path)` writes the other kinds")
+        files.write_whole(path, [self._repr_png_()])
+
+
+def capture(scene, path=None, renderer=None, lang="en", progress=None):
+    """Return the Picture of a Scene, and write it to `path` if given.
+
+    path ends in .png, or in .hdr or .npy for linear radiance [W m^-2 sr^-1]. A renderer of one's
+    own saves opening one for every call. lang is the language of a sheet's captions; progress is
+    called with the share done. Raises Mistake; OSError when the disk refuses.
+    """
+    if renderer is None:
+        with Renderer() as renderer:
+            return capture(scene, path, renderer, lang, progress)
+    folder = os.path.dirname(os.path.abspath(path)) if path else os.getcwd()
+    if path and image.ending(path) != ".png":
+        write(scene, path, renderer, lang, progress)
+        path = None
+    if scene.panels:
+        size, pixels, broken = _sheet(scene, renderer, lang, progress)
+    else:
+        size, pixels, broken = _drawn(scene, renderer)
+    picture = Picture(size, pixels, broken, scene.toml(folder, renderer.digests))
+    if path:
+        picture.save(path)
+    return picture
+
+
+def write(scene, path, renderer, lang="en", progress=None):
+    """Write the picture of a Scene to `path` and return the number of broken pixels.
+
+    As `capture`, but strip by strip, so that the memory does not grow with the picture.
+    """
+    kind = image.ending(path)
+    if scene.panels:
+        if kind != ".png":
+            raise Mistake(f"{path}: a sheet of several pictures has no radiance; write a .png")
+        return capture(scene, path, renderer, lang, progress).broken
+    faults = []
+    total = 3 * scene.size[0] * scene.size[1] * (1 if kind == ".png" else 4)
+    strips = renderer.strips(scene, linear=kind != ".png")
+    strips = _counting(strips, faults, lambda done: progress and progress(done / total))
+    if kind == ".png":
+        strips = chain([next(strips)], strips)  # now the meshes are loaded, their digests known
+        text = scene.toml(os.path.dirname(os.path.abspath(path)), renderer.digests)
+        data = image.png(scene.size, strips, [scenefile.chunk(text)])
+    else:
+        data = image.npy(scene.size, strips) if kind == ".npy" else image.hdr(scene.size, strips)
+    files.write_whole(path, data)
+    return sum(faults)
+
+
+def radiance(scene, renderer=None):
+    """Return the linear radiance of a Scene, (height, width, 3) float32 [W m^-2 sr^-1]."""
+    import numpy as np
+
+    if renderer is None:
+        with Renderer() as renderer:
+            return radiance(scene, renderer)
+    data = b"".join(strip for strip, _ in renderer.strips(scene, linear=True))
+    return np.frombuffer(data, "<f4").reshape(scene.size[1], scene.size[0], 3)
+
+
+def in_language(words, lang):
+    """Return the line for a language, else the English one, else any."""
+    return words.get(lang) or words.get("en") or next(iter(words.values()), "")
+
+
+def _drawn(scene, renderer):
+    """Return (size, pixels, broken pixels) of a scene without panels."""
+    faults = []
+    return scene.size, b"".join(_counting(renderer.strips(scene), faults)), sum(faults)
+
+
+def _counting(strips, faults, progress=None):
+    """Yield the bytes of strips, noting broken pixels; tell progress how many bytes so far."""
+    done = 0
+    for pixels, broken in strips:
+        faults.append(broken)
+        done += len(pixels)
+        if progress:
+            progress(done)
+        yield pixels
+
+
+def _sheet(scene, renderer, lang, progress, depth=1):
+    """Return (size, pixels, broken pixels) of a scene with panels."""
+    cells, broken = [], 0
+    for i, panel in enumerate(scene.panels):
+        one = Scene.load(panel.scene) if panel.scene else replace(scene, panels=(), title={})
+        one = settings.all_changed(one, panel.values)
+        if one.panels and depth == DEPTH:
+            raise Mistake(f"{panel.scene}: sheets within sheets; allowed: {depth} levels")
+        if one.panels:
+            size, pixels, faults = _sheet(one, renderer, lang, None, depth + 1)
+        else:
+            size, pixels, faults = _drawn(one, renderer)
+        caption = in_language(panel.caption, lang)
+        if not caption and not one.panels:
+            caption = in_language(one.title, lang)
+        cells.append((caption, size, pixels))
+        broken += faults
+        if progress:
+            progress((i + 1) / len(scene.panels))
+    return *sheet.lay_out(in_language(scene.title, lang), cells, scene.columns), broken

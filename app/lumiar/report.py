@@ -1,0 +1,151 @@
+"""What files hold, and what there is to choose from, as text or JSON."""
+
+import json
+import os
+
+from . import catalog, geometry, scenefile
+from .errors import Mistake, nearest
+from .scene import Scene
+
+
+def describe(name, as_json=False):
+    """Return the text that tells what a file, or something shipped, holds.
+
+    A model or light, a mesh, a scene or a picture that carries one. Raises Mistake.
+    """
+    ending, ours = os.path.splitext(name)[1].lower(), geometry.shipped()
+    if ending == ".glsl" or name in (*catalog.names("model"), *catalog.names("light")):
+        facts = _shader(_read_shader(name))
+    elif ending in geometry.FORMATS or name.split(":")[0] in (
+        *geometry.SHAPES,
+        *geometry.shipped(),
+    ):
+        facts = _mesh(name)
+    elif ending in (".toml", ".png") or name in scenefile.shipped():
+        return _scene(name, as_json)
+    else:
+        every = [*catalog.names("model"), *catalog.names("light"), *geometry.SHAPES]
+        every += [*ours, *scenefile.shipped()]
+        raise Mistake(f"{name}: no file that Lumiar reads; {nearest(name, every)}")
+    return json.dumps(facts, indent=2, ensure_ascii=False) if as_json else _as_text(facts)
+
+
+def everything(kind=None, as_json=False, lang="en"):
+    """Return the list of what is shipped: models, lights, meshes or scenes; all for kind None."""
+    found = {
+        "models": [_shader(catalog.read("model", n)) for n in catalog.names("model")],
+        "lights": [_shader(catalog.read("light", n)) for n in catalog.names("light")],
+        "meshes": [
+            {"name": n, "parameters": [_parameter(p) for p in parameters]}
+            for n, parameters in geometry.SHAPES.items()
+        ]
+        + [{"name": n, "file": path} for n, path in geometry.shipped().items()],
+        "scenes": [_titled(n) for n in scenefile.shipped()],
+    }
+    found = {key: value for key, value in found.items() if kind in (None, key)}
+    if as_json:
+        return json.dumps(found, indent=2, ensure_ascii=False)
+    lines = []
+    for key, entries in found.items():
+        lines.append(key)
+        for entry in entries:
+            about = entry.get("title", "")
+            about = about.get(lang) or about.get("en", "") if isinstance(about, dict) else about
+            names = ", ".join(p["name"] for p in entry.get("parameters", ()))
+            lines.append(f"  {entry['name']:14} {about}{': ' if about and names else ''}{names}")
+    return "\n".join(lines)
+
+
+def _read_shader(name):
+    """Return the Shader of a model, or of a light if the file defines one."""
+    try:
+        return catalog.read("model", name)
+    except Mistake as mistake:
+        try:
+            return catalog.read("light", name)
+        except Mistake:
+            raise mistake from None
+
+
+def _shader(shader):
+    return {
+        "name": shader.name,
+        "kind": shader.kind,
+        "title": shader.header.get(shader.kind, ""),
+        **{key: shader.header[key] for key in ("paper", "note") if key in shader.header},
+        "claims": shader.claims,
+        "needs": [*shader.needs],
+        "parameters": [_parameter(p) for p in shader.parameters],
+    }
+
+
+def _parameter(p):
+    facts = {"name": p.name, "type": p.type, "widget": p.widget, "default": p.default}
+    if p.widget == "choice":
+        facts["choices"] = p.choices
+    elif p.widget in ("slider", "color"):
+        facts["range"] = [p.low, p.high]
+        facts["open"] = [*p.open]
+        facts["log"] = p.log
+    return {**facts, "unit": "degrees" if p.degrees else p.unit, "text": p.text}
+
+
+def _mesh(name):
+    mesh, _ = geometry.load(name)
+    return {
+        "name": name,
+        "kind": "mesh",
+        "triangles": mesh.triangle_count,
+        "vertices": mesh.places,
+        "drawn_vertices": mesh.vertex_count,
+        "bounds": [[*mesh.low], [*mesh.high]],
+        "closed": mesh.closed,
+        "repaired": [*mesh.notes],
+    }
+
+
+def _scene(name, as_json):
+    text = Scene.load(name).toml()
+    if not as_json:
+        return text.rstrip("\n")
+    import tomllib
+
+    return json.dumps({"name": name, "kind": "scene", **tomllib.loads(text)}, indent=2)
+
+
+def _titled(name):
+    return {"name": name, "title": Scene.load(name).title}
+
+
+def _as_text(facts):
+    lines = []
+    for key, value in facts.items():
+        if key == "parameters":
+            lines.append("parameters" if value else "parameters none")
+            for p in value:
+                limits = ", ".join(p.get("choices", ())) or _range(p)
+                text = p["text"] + (f" ({p['unit']})" if p["unit"] else "")
+                lines.append(f"  {p['name']:12} {_value(p['default']):20} {limits:20} {text}")
+        elif key == "claims":
+            said = (f"{name} ({when})" if when else name for name, when in value.items())
+            lines.append(f"{'claims':15} {', '.join(said) or 'none'}")
+        else:
+            lines.append(f"{key.replace('_', ' '):15} {_value(value)}")
+    return "\n".join(lines)
+
+
+def _range(p):
+    if "range" not in p:
+        return p["widget"]
+    low, high = (f"{bound:g}" for bound in p["range"])
+    return f"{low} to {high}{' and beyond' if any(p['open']) else ''}{' log' if p['log'] else ''}"
+
+
+def _value(value):
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return f"{value:.7g}"
+    if isinstance(value, (list, tuple)):
+        return ", ".join(map(_value, value)) if value else "none"
+    return str(value)

@@ -1,0 +1,155 @@
+"""What each verb does with its options; each returns an exit code."""
+
+import os
+import sys
+import time
+
+from . import options as given
+from .errors import Mistake
+from .supervise import limit_time
+
+
+def capture(options):
+    """Draw a scene to a picture and print its path."""
+    from . import image
+
+    path = options.output or _default_output(options.scene)
+    image.ending(path)
+    _check_folder(path)
+    if options.timeout:
+        limit_time(options.timeout)
+    scene = given.scene(options)
+    for key in ("size", "samples"):
+        if getattr(options, key) is not None:
+            scene = scene.changed(key, getattr(options, key), f"--{key}: ")
+    if options.vary:
+        scene = given.varied(scene, options.vary, options.size)
+    from . import picture
+    from .renderer import Renderer
+
+    broken = picture.write(scene, path, Renderer(), _language(options.lang), _Progress(path))
+    print(path)
+    if broken:
+        text = f"{broken} pixels have no finite radiance (NaN or infinite); they are magenta"
+        print(f"lumiar: {path}: {text}", file=sys.stderr)
+    return 3 if broken and options.strict else 0
+
+
+def source(options):
+    """Print the GLSL of one object of a scene, exactly as compiled."""
+    from . import geometry, layout
+
+    if options.timeout:
+        limit_time(options.timeout)
+    scene = given.scene(options)
+    if not 1 <= options.object <= len(scene.objects):
+        raise Mistake(f"--object {options.object}: allowed: 1 to {len(scene.objects)}")
+    meshes = [geometry.load(one.mesh, crease=one.crease)[0] for one in scene.objects]
+    placed = layout.arrange(scene, meshes)[options.object - 1]
+    for stage, text in layout.sources(scene, placed).items():
+        print(f"// ======== {stage} stage ========")
+        print(text.text)
+    return 0
+
+
+def info(options):
+    """Print what a file, or something shipped, holds."""
+    from . import report
+
+    if options.timeout:
+        limit_time(options.timeout)
+    print(report.describe(options.file, options.json))
+    return 0
+
+
+def compare(options):
+    """Print how two pictures differ; 1 when a limit is passed."""
+    import json
+
+    from . import difference, files, image
+
+    a, b = image.read(options.a), image.read(options.b)
+    difference.check_alike(a, b, (options.a, options.b))
+    result = difference.measure(a[0], b[0], options.threshold)
+    try:
+        result["flip"] = difference.flip(a[0], b[0], a[1])
+    except ImportError:
+        result["flip"] = None
+        if options.max_flip is not None:
+            raise Mistake("--max-flip: flip-evaluator has no build for this Python") from None
+    limits = {
+        "rmse": options.max_rmse,
+        "max": options.max_error,
+        "share": options.max_share,
+        "flip": options.max_flip,
+    }
+    over = [name for name, most in limits.items() if most is not None and result[name] > most]
+    if over or any(most is not None for most in limits.values()):
+        over += ["not_finite"] if result["not_finite"] else []
+    if options.json:
+        print(json.dumps({**result, "over": over}, indent=2))
+    else:
+        unit = "radiance" if a[1] else "sRGB, 0 to 1"
+        print(f"unit        {unit}")
+        for name, value in result.items():
+            shown = "not measured" if value is None else f"{value:.6g}"
+            print(f"{name:11} {shown}{'  over the limit' if name in over else ''}")
+    if options.output:
+        if image.ending(options.output) != ".png":
+            raise Mistake(f"{options.output}: the difference is written as .png")
+        _check_folder(options.output)
+        pixels, white = difference.picture(a[0], b[0])
+        size = (a[0].shape[1], a[0].shape[0])
+        files.write_whole(options.output, image.png(size, [pixels]))
+        print(f"{options.output}  (white: {white:.6g})")
+    return 1 if over else 0
+
+
+def list(options):
+    """Print the models, lights, meshes and scenes there are."""
+    from . import report
+
+    print(report.everything(options.kind, options.json, _language(None)))
+    return 0
+
+
+def _default_output(scene):
+    """Return the picture's name where none is given: the scene's, in the current folder."""
+    path = os.path.splitext(os.path.basename(scene or "lumiar"))[0] + ".png"
+    if scene and os.path.abspath(path) == os.path.abspath(scene):
+        raise Mistake(
+            f"{path}: would replace the picture that holds the scene; name another with -o"
+        )
+    return path
+
+
+def _check_folder(path):
+    folder = os.path.dirname(os.path.abspath(path))
+    if not os.path.isdir(folder):
+        raise Mistake(f"{path}: there is no folder {folder}; make it, or write elsewhere")
+    if os.path.isdir(path):
+        raise Mistake(f"{path}: is a folder; name a file in it")
+
+
+def _language(asked):
+    """Return the language of captions: the one asked for, else the system's, else English."""
+    names = ("LC_ALL", "LC_MESSAGES", "LANG")
+    system = next((os.environ[name] for name in names if os.environ.get(name)), "")
+    return asked or ("pt" if system.lower().startswith("pt") else "en")
+
+
+class _Progress:
+    """Tells on standard error how far a picture is, once it takes more than a second."""
+
+    def __init__(self, path):
+        self.path, self.started = path, time.monotonic()
+        self.told = self.started
+
+    def __call__(self, share):
+        now = time.monotonic()
+        if now - self.started > 1.0 and (now - self.told > 0.5 or share == 1.0):
+            self.told = now
+            left = (now - self.started) * (1.0 - share) / share
+            end = "\n" if share == 1.0 or not sys.stderr.isatty() else "\r"
+            text = f"lumiar: {self.path}: {share:4.0%}, {left:.0f} s left"
+            print(text, end=end, file=sys.stderr, flush=True)

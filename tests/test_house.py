@@ -1,0 +1,111 @@
+"""The house of CONTRIBUTING.md: who may import whom, and how large a file may grow."""
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+APP = ROOT / "app" / "lumiar"
+FLOORS = [  # lowest first; a module imports only from floors below its own
+    "errors",
+    "files",
+    "parameter cache supervise polygons reference camera tomltext driverlog difference image sheet",
+    "catalog mesh",
+    "formats shapes",
+    "geometry compose parts",
+    "settings layout",
+    "scenefile",
+    "scene",
+    "renderer report",
+    "picture options",
+    "verbs",
+    "cli",
+]
+FLOOR = {name: i for i, names in enumerate(FLOORS) for name in names.split()}
+GL = {"moderngl", "glcontext"}
+HOMES = {  # a heavy library and the modules that may know it
+    "moderngl": {"renderer"},
+    "glcontext": {"renderer"},
+    "PIL": {"image", "sheet"},
+    "tomli_w": {"scenefile"},
+    "isal": {"image"},
+    "flip_evaluator": {"difference"},
+}
+MODULES = sorted(p for p in APP.rglob("*.py") if p.name not in ("__init__.py", "__main__.py"))
+
+
+def module_name(path):
+    return "formats" if path.parent.name == "formats" else path.stem
+
+
+def imports(path):
+    """Yield (top-level library or module of ours, whether it is ours) for each import."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            yield from ((alias.name, False) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            name = node.module or ""
+            ours = node.level > 0 or name.split(".")[0] == "lumiar"
+            name = name.removeprefix("lumiar").lstrip(".")
+            names = [name] if name else [alias.name for alias in node.names]
+            yield from ((n, ours) for n in names)
+
+
+def test_every_module_has_a_floor():
+    assert {module_name(path) for path in MODULES} == set(FLOOR)
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda p: p.stem)
+def test_imports_only_from_below(path):
+    own = module_name(path)
+    for name, ours in imports(path):
+        first = name.split(".")[0]
+        if ours and first in FLOOR and not (own == "formats" and first in ("formats", own)):
+            inside = own == "formats" and (APP / "formats" / f"{first}.py").exists()
+            assert inside or FLOOR[first] < FLOOR[own], f"{own} imports {first}"
+        if not ours and first in HOMES:
+            assert own in HOMES[first], f"{own} imports {first}"
+        assert first not in ("glfw", "imgui_bundle", "trimesh", "pyrr"), f"{own} imports {first}"
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda p: p.stem)
+def test_a_module_is_short_and_says_what_it_is(path):
+    text = path.read_text()
+    assert text.count("\n") <= 300
+    assert ast.get_docstring(ast.parse(text))
+    for node in ast.parse(text).body:
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)) and not node.name.startswith("_"):
+            assert ast.get_docstring(node), f"{path.name}: {node.name} has no docstring"
+
+
+@pytest.mark.parametrize(
+    "path", sorted((ROOT / "glsl" / "models").glob("*.glsl")), ids=lambda p: p.stem
+)
+def test_a_model_fits_on_a_page(path):
+    text = path.read_text()
+    assert text.count("\n") <= 60
+    assert not re.search(r"\b(in|out)\s+vec|gl_|texture|dFd[xy]|fwidth", text)
+
+
+def test_nothing_is_left_open():
+    for folder in ("app", "glsl", "tests"):
+        for path in (ROOT / folder).rglob("*"):
+            if (
+                path.suffix in (".py", ".glsl", ".vert", ".frag", ".geom")
+                and path.name != Path(__file__).name
+            ):
+                assert not re.search(r"TODO|FIXME|XXX|NotImplementedError", path.read_text()), path
+
+
+def test_every_asset_folder_names_its_sources():
+    for folder in ("meshes", "fonts"):
+        sources = (ROOT / "assets" / folder / "SOURCES.md").read_text()
+        for path in (ROOT / "assets" / folder).iterdir():
+            if path.name not in ("SOURCES.md", "LICENSE.txt"):
+                assert path.name in sources
+
+
+def test_readme_is_short():
+    assert (ROOT / "README.md").read_text().count("\n") <= 150
