@@ -165,3 +165,276 @@ def assert_close(found, expected, limit=1e-5):
     scale = np.maximum(np.abs(expected), 1e-3 * np.abs(expected).max())
     worst = np.max(np.abs(found - expected) / scale)
     assert worst < limit, f"off by {worst:.2e}"
+
+
+def mean(scene, renderer):
+    return radiance(scene, renderer).reshape(-1, 3).mean(0)
+
+
+@pytest.mark.parametrize("model", ["lambert", "phong", "blinn"])
+def test_every_slider_toggle_and_choice_changes_the_picture(renderer, model):
+    scene = lit(model=model, size=(48, 48))
+    before = radiance(scene, renderer)
+    for parameter in scene.objects[0].model.parameters:
+        old = scene.objects[0].values[parameter.name]
+        if parameter.widget == "toggle":
+            new = not old
+        elif parameter.widget == "choice":
+            new = next(c for c in parameter.choices if c != old)
+        else:
+            new = 0.3 if parameter.widget == "color" else old * 2.5
+        after = radiance(scene.changed(parameter.name, new), renderer)
+        assert np.abs(after - before).max() > 1e-3, parameter.name
+
+
+@pytest.mark.parametrize("kind", list(LIGHTS))
+def test_every_value_of_a_light_changes_the_picture(renderer, kind):
+    scene = lit(kind, size=(48, 48))
+    before = radiance(scene, renderer)
+    for parameter in scene.lights[0].kind.parameters:
+        old = scene.lights[0].values[parameter.name]
+        new = [v * 0.5 + 0.2 for v in old] if isinstance(old, tuple) else old * 0.7
+        after = radiance(scene.changed(f"light.1.{parameter.name}", new), renderer)
+        assert np.abs(after - before).max() > 1e-3, parameter.name
+
+
+def test_one_scale_for_all_models(renderer):
+    """Lambert with albedo 1 under irradiance pi, seen and lit head-on, has radiance 1."""
+    scene = Scene.default().set(
+        model="lambert",
+        albedo=1.0,
+        mesh="plane",
+        light="directional:direction=0,1,0",
+        camera__position=(0, 5, 0),
+        camera__up=(0, 0, 1),
+        size=(8, 8),
+        background=0.0,
+    )
+    scene = scene.changed("irradiance", math.pi)
+    assert np.abs(radiance(scene, renderer)[4, 4] - 1.0).max() < 1e-6
+
+
+def test_a_point_light_obeys_the_inverse_square(renderer):
+    """A facing Lambert surface at distance d has radiance rho I / (pi d^2)."""
+    scene = Scene.default().set(
+        model="lambert",
+        albedo=0.5,
+        mesh="plane:width=0.01",
+        size=(5, 5),
+        samples=1,
+        camera__position=(0, 0.02, 0),
+        camera__up=(0, 0, 1),
+        camera__fov=10,
+    )
+    for distance in (0.1, 1.0, 3.0, 50.0):
+        lit_scene = scene.changed("light", f"point:position=0,{distance},0:intensity=7")
+        expected = 0.5 * 7.0 / (math.pi * distance**2)
+        assert radiance(lit_scene, renderer)[2, 2, 0] == pytest.approx(expected, rel=2e-6)
+
+
+def test_lights_add(renderer):
+    alone = [radiance(lit(name), renderer) for name in LIGHTS]
+    empty = radiance(lit("ambient").set(radiance=0.0), renderer)
+    both = radiance(lit(), renderer)
+    assert np.abs(sum(alone) - 3 * np.where(empty > 0, empty, 0) - both).max() < 1e-5
+
+
+def test_many_lights_of_one_kind(renderer):
+    from dataclasses import replace
+
+    one = lit("point")
+    many = replace(one, lights=one.lights * 12)
+    lit_pixels = radiance(one, renderer)[20:60, 30:60]
+    assert np.allclose(radiance(many, renderer)[20:60, 30:60], 12 * lit_pixels, rtol=1e-5)
+
+
+def test_exposure_is_in_stops_and_the_tone_curves_are_as_published(renderer):
+    scene = lit("ambient", model="lambert", albedo=0.5, size=(16, 16))
+    level = radiance(scene, renderer)[8, 8].astype(np.float64)
+    for ev in (-2.0, 0.0, 1.5):
+        for tone in ("none", "reinhard", "aces"):
+            linear = level * 2.0**ev
+            if tone == "reinhard":
+                linear = linear / (1.0 + linear @ [0.2126, 0.7152, 0.0722])
+            if tone == "aces":
+                linear = linear * (2.51 * linear + 0.03) / (linear * (2.43 * linear + 0.59) + 0.14)
+            expected = srgb(np.clip(linear, 0.0, 1.0)) * 255.0
+            pixels = capture(scene.set(exposure=ev, tone=tone), renderer=renderer).pixels
+            found = np.frombuffer(pixels, np.uint8).reshape(16, 16, 3)[8, 8]
+            assert np.abs(found - expected).max() <= 0.51, (ev, tone)
+
+
+def srgb(linear):
+    """IEC 61966-2-1:1999."""
+    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+
+
+@pytest.mark.parametrize("samples", [4, 16])
+def test_samples_average_radiance_not_srgb(renderer, samples):
+    """An edge pixel is the mean of the radiance of its samples, drawn one by one, larger."""
+    side = math.isqrt(samples)
+    scene = lit("directional", size=(24, 24), samples=samples)
+    large = radiance(scene.set(size=(24 * side, 24 * side), samples=1), renderer)
+    expected = large.reshape(24, side, 24, side, 3).mean((1, 3))
+    assert np.abs(radiance(scene, renderer) - expected).max() < 1e-5
+
+
+def test_strips_do_not_show(renderer, monkeypatch):
+    scene = lit(size=(50, 37), samples=4)
+    whole = capture(scene, renderer=renderer).pixels
+    linear = radiance(scene, renderer)
+    monkeypatch.setattr(module, "STRIP", 50 * 4 * 7)
+    assert capture(scene, renderer=renderer).pixels == whole
+    assert np.abs(radiance(scene, renderer) - linear).max() < 5e-6  # interpolation rounds anew
+
+
+def test_the_picture_is_upright_and_not_mirrored(renderer):
+    """A small sphere up and to the right of the target is up and to the right in the picture."""
+    scene = lit("ambient", camera__position=(0, 0, 10), camera__target=(0, 0, 0), fit=0.3)
+    scene = scene.set(position=(1.0, 0.6, 0.0), background=0.0)
+    rows, columns = np.nonzero(radiance(scene, renderer).sum(2) > 0.01)
+    assert rows.mean() < 80 * 0.4 and columns.mean() > 96 * 0.6
+
+
+def test_both_sides_of_an_open_mesh_are_lit(renderer):
+    for rate in RATES:
+        scene = lit("directional", mesh="plane", model="lambert", shading=rate, size=(16, 16))
+        scene = scene.changed("light", "directional:direction=0,1,0")
+        above = scene.set(camera__elevation=60)
+        below = scene.changed("light", "directional:direction=0,-1,0").set(camera__elevation=-60)
+        expected = radiance(above, renderer)[8, 8, 0]
+        assert expected > 0.5 and radiance(below, renderer)[8, 8, 0] == pytest.approx(
+            expected, 1e-5
+        )
+
+
+def test_the_inside_of_a_solid_is_seen_from_within(renderer):
+    scene = lit("ambient", mesh="box", model="lambert", albedo=0.5, background=0.0)
+    scene = scene.set(camera__position=(0, 0, 0.5), camera__target=(0, 0, -1), camera__fov=60)
+    assert radiance(scene, renderer).min() > 0.05
+
+
+@pytest.mark.parametrize("rate", RATES)
+def test_a_mirrored_object_keeps_its_outside(renderer, rate):
+    """A sphere scaled by -1 along x is the same sphere."""
+    scene = lit("directional", model="phong", shading=rate, mesh="torus", size=(40, 40))
+    mirrored = scene.set(scale=(-1, 1, 1))
+    difference = np.abs(radiance(scene, renderer) - radiance(mirrored, renderer))
+    assert np.quantile(difference, 0.97) < (0.2 if rate == "flat" else 1e-3)
+
+
+def test_fit_brings_any_mesh_to_size(renderer):
+    scene = lit("directional", size=(40, 40), camera__position=(0, 0, 6), camera__target=(0, 0, 0))
+    small = scene.set(mesh="sphere:radius=0.001", fit=1.0)
+    large = scene.set(mesh="sphere:radius=1000", fit=1.0)
+    assert np.abs(radiance(small, renderer) - radiance(large, renderer)).max() < 1e-3
+
+
+@pytest.mark.parametrize("radius", [1e-6, 1e-3, 1.0, 1e3, 1e6])
+@pytest.mark.parametrize("rate", RATES)
+def test_the_camera_frames_a_mesh_of_any_size(renderer, radius, rate):
+    scene = lit("directional", mesh=f"sphere:radius={radius}", shading=rate, background=0.0)
+    found = radiance(scene, renderer).sum(2)
+    reference = radiance(scene.set(mesh="sphere"), renderer).sum(2)
+    assert np.abs(found - reference).max() < 2e-3
+
+
+NAN = """\
+// model   Broken
+uniform float edge = 0.5;  // [0, 1]: where it breaks
+vec3 scatter(vec3 L, vec3 V) { return vec3(L.z > edge ? sqrt(-L.z) : 1.0 / (L.z - L.z)); }
+"""
+
+
+def test_broken_pixels_are_counted_and_magenta(renderer, tmp_path):
+    path = tmp_path / "nan.glsl"
+    path.write_text(NAN)
+    scene = lit("directional", model=str(path), size=(32, 32))
+    picture = capture(scene, renderer=renderer)
+    pixels = np.frombuffer(picture.pixels, np.uint8).reshape(32, 32, 3)
+    magenta = (pixels == [255, 0, 255]).all(2)
+    broken = ~np.isfinite(radiance(scene, renderer)).all(2)
+    assert picture.broken == broken.sum() > 300
+    assert (magenta == broken).all()
+
+
+@pytest.mark.parametrize(
+    ("body", "line"),
+    [("return vec3(nope);", 3), ("return vec3(1.0)", 4), ("return 1.0;", 3), ("vec3 L;", 3)],
+)
+@pytest.mark.parametrize("rate", RATES)
+def test_a_shader_error_names_file_and_line(renderer, tmp_path, body, line, rate):
+    path = tmp_path / "bad.glsl"
+    path.write_text(f"// model   Bad\nvec3 scatter(vec3 L, vec3 V) {{\n    {body}\n}}\n")
+    scene = lit("directional", model=str(path), shading=rate)
+    with pytest.raises(Mistake) as told:
+        radiance(scene, renderer)
+    assert str(told.value).startswith(f"{path}:{line}: the driver does not compile this: ")
+
+
+def test_a_size_beyond_the_driver_is_refused(renderer):
+    with pytest.raises(Mistake, match="more than this driver draws"):
+        next(renderer.strips(lit().set(size=(16384, 16), samples=4)))
+
+
+def test_time_reaches_a_model_that_asks_for_it(renderer, tmp_path):
+    path = tmp_path / "glow.glsl"
+    path.write_text(
+        "// model   Glow\nuniform float age = 0.0;  // time: since the start (s)\n"
+        "vec3 scatter(vec3 L, vec3 V) { return vec3(exp2(-age)) * max(L.z, 0.0); }\n"
+    )
+    scene = lit("directional", model=str(path), background=0.0)
+    early, late = (mean(scene.set(time=t), renderer) for t in (0.0, 2.0))
+    assert late == pytest.approx(early / 4.0, rel=1e-5)
+
+
+@pytest.mark.parametrize("rate", RATES)
+def test_tangents_reach_a_model_that_asks_for_them(renderer, tmp_path, rate):
+    """T, B, N are orthonormal, and T of a torus runs around its axis."""
+    path = tmp_path / "frame.glsl"
+    path.write_text(
+        "// model   Frame\n// needs   tangent\nvec3 scatter(vec3 L, vec3 V) { return L * L; }\n"
+    )
+    scene = lit("directional", model=str(path), mesh="torus", shading=rate, background=0.0)
+    scene = scene.set(irradiance=1.0, color=1.0)
+    found = radiance(scene, renderer).reshape(-1, 3)
+    seen = found.sum(1) > 0.0
+    assert np.abs(found[seen].sum(1) - 1.0).max() < 5e-5
+    upright = radiance(scene.set(direction=(0, 1, 0)), renderer).reshape(-1, 3)
+    assert upright[seen][:, 0].max() < (2e-3 if rate == "flat" else 1e-5)
+
+
+def test_several_objects_hide_each_other(renderer):
+    from dataclasses import replace
+
+    scene = lit("ambient", model="lambert", background=0.0, size=(32, 32))
+    near = replace(
+        scene.objects[0],
+        position=(0.0, 0.0, 2.0),
+        values={"albedo": (1.0, 0.0, 0.0), "form": "normalised"},
+    )
+    far = replace(
+        near, position=(0.0, 0.0, -2.0), values={**near.values, "albedo": (0.0, 1.0, 0.0)}
+    )
+    for order in ((near, far), (far, near)):
+        both = replace(scene, objects=order).set(camera__azimuth=0, camera__elevation=0)
+        middle = radiance(both, renderer)[16, 16]
+        assert middle[0] > 0.1 and middle[1] == 0.0
+
+
+def test_the_same_scene_gives_the_same_bytes(renderer):
+    scene = lit(mesh="teapot:segments=4", size=(64, 64), samples=4)
+    first = capture(scene, renderer=renderer).pixels
+    with module.Renderer() as other:
+        assert capture(scene, renderer=other).pixels == first
+
+
+def test_what_was_compiled_is_kept():
+    with module.Renderer() as renderer:
+        scene = lit(size=(8, 8))
+        radiance(scene, renderer)
+        compiled = len(renderer._programs)
+        radiance(scene.set(shininess=7.0, kd=0.1, exposure=1.0), renderer)
+        assert len(renderer._programs) == compiled
+        radiance(scene.set(form="normalised"), renderer)
+        assert len(renderer._programs) == compiled + 1

@@ -45,6 +45,7 @@ class Renderer:
         self.context = context or open_context()
         self._owns_context = context is None
         self._programs, self._meshes, self._arrays, self._targets = {}, {}, {}, {}
+        self._idle = None
         self._drawn = (None, [])  # the last scene and its jobs: most frames draw it again
 
     def __enter__(self):
@@ -55,14 +56,11 @@ class Renderer:
 
     def release(self):
         """Free everything on the graphics card."""
-        for array in self._arrays.values():
-            array.release()
-        for program in self._programs.values():
-            program.release()
-        for _, _, *buffers in self._meshes.values():
-            for buffer in filter(None, buffers):
-                buffer.release()
-        self._release_targets()
+        with self.context:
+            buffers = [b for _, _, *three in self._meshes.values() for b in three if b]
+            for made in (*self._arrays.values(), *self._programs.values(), *buffers):
+                made.release()
+            self._release_targets()
         if self._owns_context:
             self.context.release()
 
@@ -87,16 +85,22 @@ class Renderer:
         side = math.isqrt(scene.samples)
         self._check_size(width, height, side)
         rows = max(1, min(height, STRIP // (width * side * side)))
-        radiance, picture = self._target(width, rows, side, linear)
         for top in range(0, height, rows):
-            count = min(rows, height - top)
-            below = height - top - count
-            radiance.viewport = (0, -below * side, width * side, height * side)
-            self.draw(scene, radiance)
-            self.present(scene, radiance, picture, count, linear)
-            area, dtype = (0, 0, width, count), "f4" if linear else "f1"
-            flags = picture.read(area, 1, attachment=1)
-            yield picture.read(area, 3, dtype=dtype), len(flags) - flags.count(b"\0")
+            with self.context:  # another renderer's may be the current one
+                strip = self._strip(scene, linear, side, rows, top)
+            yield strip
+
+    def _strip(self, scene, linear, side, rows, top):
+        width, height = scene.size
+        count = min(rows, height - top)
+        below = height - top - count
+        radiance, picture = self._target(width, rows, side, linear)
+        radiance.viewport = (0, -below * side, width * side, height * side)
+        self.draw(scene, radiance)
+        self.present(scene, radiance, picture, count, linear)
+        area, dtype = (0, 0, width, count), "f4" if linear else "f1"
+        flags = picture.read(area, 1, attachment=1)
+        return picture.read(area, 3, dtype=dtype), len(flags) - flags.count(b"\0")
 
     def draw(self, scene, framebuffer):
         """Draw the linear radiance of a scene into a framebuffer with a depth buffer."""
@@ -213,6 +217,9 @@ class Renderer:
         return self._targets[key]
 
     def _release_targets(self):
+        if self._targets:  # a framebuffer that goes while bound leaves an error behind
+            self._idle = self._idle or self.context.framebuffer([self.context.renderbuffer((1, 1))])
+            self._idle.use()
         for framebuffer in (f for pair in self._targets.values() for f in pair):
             for attachment in (*framebuffer.color_attachments, framebuffer.depth_attachment):
                 if attachment:
