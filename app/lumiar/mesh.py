@@ -175,7 +175,8 @@ def _own_normals(polygons, corner):
     """Return (F, 3, 3) unit normals as the file gives them, zero where it gives none, or None."""
     if polygons.normals is None:
         return None
-    unit = _unit(np.where(np.isfinite(polygons.normals), polygons.normals, 0.0))
+    finite = np.isfinite(polygons.normals).all(axis=1, keepdims=True)
+    unit = _unit(np.where(finite, polygons.normals, 0.0))
     own = np.concatenate([unit, np.zeros((1, 3))])[polygons.normal_of[corner]]
     return own if own.any() else None
 

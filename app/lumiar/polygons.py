@@ -95,7 +95,7 @@ def _ears(points):
             ear = (ring[k - 1], middle, ring[(k + 1) % len(ring)])
             a, b, c = flat[list(ear)]
             rest = flat[[r for r in ring if r not in ear]]
-            rest = rest[~((rest == a) | (rest == b) | (rest == c)).all(1)]
+            rest = rest[~(rest[:, None] == [a, b, c]).all(2).any(1)]  # bridges visit a place twice
             inside = (left(a, b, rest) >= 0) & (left(b, c, rest) >= 0) & (left(c, a, rest) >= 0)
             if left(a, b, c) > 0.0 and not inside.any():
                 cut.append(ear)

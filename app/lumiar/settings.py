@@ -30,15 +30,16 @@ def changed(scene, key, value, where="", folder=""):
     if key == "light":
         return replace(scene, lights=(light(str(value), where, folder),))
     objects, lights, rest = _addressed(scene, key)
-    in_objects = [o for o in objects if rest in ("model", "mesh") or _has(o, rest)]
-    in_lights = [] if in_objects else [x for x in lights if rest in x.values]
+    in_objects = [i for i in objects if _takes(scene.objects[i], rest)]
+    in_lights = [i for i in lights if rest in scene.lights[i].values and not in_objects]
     if not in_objects and not in_lights:
         raise Mistake(f"{where}no value '{key}'; {nearest(key, keys(scene))}")
-    return replace(
-        scene,
-        objects=_exchanged(scene.objects, in_objects, _object_with, rest, value, where, folder),
-        lights=_exchanged(scene.lights, in_lights, _light_with, rest, value, where, folder),
-    )
+    changed_objects, changed_lights = list(scene.objects), list(scene.lights)
+    for i in in_objects:
+        changed_objects[i] = _object_with(scene.objects[i], rest, value, where, folder)
+    for i in in_lights:
+        changed_lights[i] = _light_with(scene.lights[i], rest, value, where)
+    return replace(scene, objects=tuple(changed_objects), lights=tuple(changed_lights))
 
 
 def all_changed(scene, pairs, where="", folder=""):
@@ -91,30 +92,28 @@ def light(spec, where="", folder=""):
     one = Light(kind, kind.defaults())
     for setting in values:
         key, _, value = setting.partition("=")
-        one = _light_with(one, key, value, where, folder)
+        one = _light_with(one, key, value, where)
     return one
 
 
 def _addressed(scene, key):
-    """Return (objects, lights, rest of the key) that a key may speak of."""
+    """Return (indices of objects, indices of lights, rest of the key) that a key may speak of."""
     first, _, rest = key.partition(".")
     number, _, last = rest.partition(".")
     if first in ("object", "light") and number.isdigit():
         among = scene.objects if first == "object" else scene.lights
-        chosen = among[int(number) - 1 : int(number)] if int(number) else ()
-        return (chosen, (), last) if first == "object" else ((), chosen, last)
-    if rest:
-        objects = [o for o in scene.objects if o.name == first]
-        return objects, [x for x in scene.lights if first in (x.name, x.kind.name)], rest
-    return scene.objects, scene.lights, key
+        chosen = [int(number) - 1] if 1 <= int(number) <= len(among) else []
+        return (chosen, [], last) if first == "object" else ([], chosen, last)
+    objects, lights = range(len(scene.objects)), range(len(scene.lights))
+    if not rest:
+        return objects, lights, key
+    named = [i for i in objects if scene.objects[i].name == first]
+    lamps = [i for i in lights if first in (scene.lights[i].name, scene.lights[i].kind.name)]
+    return named, lamps, rest
 
 
-def _exchanged(every, chosen, change, *arguments):
-    return tuple(change(one, *arguments) if any(one is c for c in chosen) else one for one in every)
-
-
-def _has(one, key):
-    return key in OBJECT or key in one.values
+def _takes(one, key):
+    return key in ("mesh", "model") or key in OBJECT or key in one.values
 
 
 def _object_with(one, key, value, where, folder):
@@ -142,7 +141,7 @@ def _with_model(one, model):
     return replace(one, model=model, values=values)
 
 
-def _light_with(one, key, value, where, _folder):
+def _light_with(one, key, value, where):
     parameter = one.kind.parameter(key, where)
     value = parameter.check(_typed(parameter, value, where), where)
     return replace(one, values={**one.values, key: value})

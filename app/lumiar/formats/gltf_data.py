@@ -29,6 +29,7 @@ class Accessor(NamedTuple):
     Where nothing is `stored`, the values are zeros.
     """
 
+    label: str
     values: np.ndarray
     code: str
     normalized: bool
@@ -179,13 +180,15 @@ def accessors(document, buffer):
         if "sparse" in spec:
             sparse, where = child(spec, "sparse", where), f"{where}, sparse"
             replaced = whole(sparse, "count", where)
-            patched += replaced  # of all accessors, since each of them takes time
-            if not 1 <= replaced <= count or patched > check.MOST_CORNERS:
+            if not 1 <= replaced <= count:
                 raise Mistake(f"{where}: count is {replaced}; write 1 to {count}")
+            patched += replaced
+            if patched > check.MOST_CORNERS:  # small files can have many that share their bytes
+                raise Mistake(f"{where}: over {check.MOST_CORNERS} values replaced; simplify it")
             at = _increasing(document, buffer, sparse, replaced, count, where)
             patches = child(sparse, "values", where)
             patches = _view(document, buffer, patches, replaced, code, width, where)
-        return Accessor(values, code, normalized, stored, at, patches)
+        return Accessor(f"accessor {index}", values, code, normalized, stored, at, patches)
 
     return accessor
 

@@ -37,8 +37,9 @@ def placed(document):
         if len(set(roots)) < len(roots):
             raise Mistake(f"a node is twice in {where}; keep one")
     placed = [(i, _matrix(nodes[i], f"node {i}")) for i in roots]
-    for i, matrix in placed:  # grows too
-        placed += [(c, matrix @ _matrix(nodes[c], f"node {c}")) for c in children[i]]
+    with np.errstate(all="ignore"):  # what overflows is found in the positions
+        for i, matrix in placed:  # grows too
+            placed += [(c, matrix @ _matrix(nodes[c], f"node {c}")) for c in children[i]]
     return placed
 
 
