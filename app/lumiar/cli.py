@@ -35,6 +35,8 @@ def run(argv):
     except Mistake as mistake:
         print(f"lumiar: {one_line(_shortened(str(mistake)))}", file=sys.stderr)
         return 2
+    except BrokenPipeError:
+        raise  # not our disk: whoever read our output has gone, and supervise ends quietly
     except OSError as error:
         name = f" {error.filename}" if error.filename else ""
         print(f"lumiar: cannot write{name}: {one_line(error.strerror or error)}", file=sys.stderr)

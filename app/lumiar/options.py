@@ -5,7 +5,7 @@ import os
 import re
 from dataclasses import replace
 
-from .errors import Mistake
+from .errors import Mistake, nearest
 
 SHEET_CELL = 384  # pixels of the long side of a picture varied on a sheet, where no size is given
 
@@ -19,6 +19,10 @@ class _Help(argparse.HelpFormatter):
 
 class _Parser(argparse.ArgumentParser):
     def error(self, message):
+        found = re.match(r"unrecognized arguments: (--\S+)", message)
+        if found:
+            options = [name for name in self._option_string_actions if name.startswith("--")]
+            message = f"no option {found.group(1)}; {nearest(found.group(1), options)}"
         raise Mistake(f"{self.prog.split()[-1]}: {message}; `{self.prog} --help` tells more")
 
 

@@ -24,7 +24,7 @@ def lay_out(title, cells, columns=0):
     gap = max(8, max(widths) // 40)
     total = sum(widths) + gap * (len(widths) + 1)
     top = _Line(title, max(20, min(total // 26, 48)), total - 2 * gap, heading=True)
-    text = max(13, min(min(widths) // 16, 30))
+    text = max(13, min(min(widths) // 14, 30))
     captions = [
         [_Line(c, text, w) for (c, _, _), w in zip(row, widths, strict=False)] for row in rows
     ]

@@ -1,0 +1,430 @@
+"""The commands as a user types them: what they print, what they leave, how they end."""
+
+import json
+import os
+import re
+import resource
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+from PIL import Image
+
+SMALL = ("--size", "48x32", "--samples", "1")
+OWN = "// model   Own\nvec3 scatter(vec3 L, vec3 V) { return vec3(%s) * max(L.z, 0.0); }\n"
+SLOW = "float x = L.z; for (int i = 0; i < 65000; ++i) x = sin(x + exp(-x)); return vec3(x);"
+LIMITS = "// model   Slow\nvec3 scatter(vec3 L, vec3 V) { %s }\n"
+
+
+def pixels(path):
+    with Image.open(path) as picture:
+        return np.asarray(picture)
+
+
+def leftovers(folder):
+    return sorted(p.name for p in folder.iterdir() if p.name.startswith(".") or p.suffix == ".tmp")
+
+
+def test_a_capture_without_anything_draws_the_default_scene(lumiar, tmp_path):
+    assert lumiar("capture", *SMALL).stdout == "lumiar.png\n"
+    assert pixels(tmp_path / "lumiar.png").shape == (32, 48, 3)
+    assert leftovers(tmp_path) == []
+
+
+def test_every_option_of_capture_counts(lumiar, tmp_path):
+    base = ("capture", *SMALL, "-o")
+    lumiar(*base, "base.png")
+    for i, more in enumerate(
+        (
+            ("--model", "lambert"),
+            ("--mesh", "teapot"),
+            ("--shading", "flat", "--mesh", "sphere:subdivision=1"),
+            ("--light", "point:intensity=20", "--light", "spot"),
+            ("--set", "kd=1,0,0"),
+            ("--set", "shininess=5", "--set", "ks=1"),
+            ("--samples", "4"),
+        )
+    ):
+        lumiar(*base, f"{i}.png", *more)
+        assert (pixels(tmp_path / f"{i}.png") != pixels(tmp_path / "base.png")).any(), more
+
+
+def test_a_picture_reopens_as_what_made_it(lumiar, tmp_path):
+    mesh = tmp_path / "elsewhere" / "tri.off"
+    mesh.parent.mkdir()
+    mesh.write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+    (tmp_path / "own.glsl").write_text(OWN % "0.2, 0.7, 0.4")
+    for i, more in enumerate(
+        (
+            ("--set", "kd=0.1,0.9,0.3", "--set", "camera.azimuth=70"),
+            ("--mesh", mesh, "--model", "own.glsl"),
+            ("--vary", "shininess=5,500", "--vary", "model=phong,blinn"),
+        )
+    ):
+        lumiar("capture", *SMALL, *more, "-o", f"a{i}.png")
+        lumiar("capture", f"a{i}.png", "-o", f"b{i}.png")
+        assert (pixels(tmp_path / f"a{i}.png") == pixels(tmp_path / f"b{i}.png")).all()
+        one, other = (lumiar("info", f"{name}{i}.png").stdout for name in "ab")
+        assert one == other and one.startswith("size = ")
+
+
+def test_a_picture_is_not_replaced_by_its_own_capture(lumiar, tmp_path):
+    lumiar("capture", *SMALL, "-o", "a.png")
+    assert "name another with -o" in lumiar("capture", "a.png", code=2).stderr
+
+
+def test_linear_radiance_is_written_as_it_is(lumiar, tmp_path):
+    more = (*SMALL, "--light", "ambient:radiance=1", "--model", "lambert", "--set", "albedo=0.5")
+    lumiar("capture", *more, "-o", "a.npy")
+    lumiar("capture", *more, "-o", "a.hdr")
+    lumiar("capture", *more, "--set", "exposure=3", "-o", "b.npy")
+    array = np.load(tmp_path / "a.npy")
+    assert array.shape == (32, 48, 3) and array.dtype == np.float32
+    assert array[16, 24] == pytest.approx(0.5, rel=1e-6)
+    assert (np.load(tmp_path / "b.npy") == array).all()  # the exposure is for eyes
+    lumiar("compare", "a.npy", "a.hdr", "--max-error", "0.005")
+
+
+def test_a_sheet_has_a_picture_for_each_combination(lumiar, tmp_path):
+    lumiar(
+        "capture",
+        *SMALL,
+        "--vary",
+        "shininess=5,50,500",
+        "--vary",
+        "kd=[1,0,0],[0,1,0]",
+        "-o",
+        "s.png",
+    )
+    found = pixels(tmp_path / "s.png").astype(int)
+    red = ((found[..., 0] - found[..., 1]) > 60).any(0)
+    green = ((found[..., 1] - found[..., 0]) > 60).any(0)
+    assert not (red & green).any()  # two columns
+    dark = (found.sum(2) < 250).any(1)
+    rows = np.flatnonzero(np.diff(dark.astype(int)) == 1).size
+    assert rows >= 3
+    info = lumiar("info", "s.png").stdout
+    assert info.count("[[panel]]") == 6 and "shininess = 500, kd = [0,1,0]" in info
+
+
+def test_broken_pixels_are_told_and_strict_is_strict(lumiar, tmp_path):
+    (tmp_path / "nan.glsl").write_text(OWN % "sqrt(-L.z)")
+    done = lumiar("capture", "--model", "nan.glsl", *SMALL, "-o", "n.png")
+    assert re.search(r"^lumiar: n\.png: \d+ pixels have no finite radiance", done.stderr)
+    assert ((pixels(tmp_path / "n.png") == [255, 0, 255]).all(2)).sum() > 50
+    lumiar("capture", "--model", "nan.glsl", *SMALL, "-o", "n.npy", "--strict", code=3)
+    assert np.isnan(np.load(tmp_path / "n.npy")).any()
+    lumiar("capture", *SMALL, "--strict")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["captur"], "no verb 'captur'; did you mean 'capture'?"),
+        (["capture", "--modle", "x"], "capture: no option --modle; did you mean '--model'?"),
+        (["capture", "teapott"], "no scene 'teapott'; did you mean 'teapot'?"),
+        (["capture", "gone.toml"], "gone.toml: no such file"),
+        (["capture", "--model", "gone.glsl"], "--model: no file gone.glsl"),
+        (["capture", "--mesh", "gone.obj"], "--mesh: no file gone.obj"),
+        (["capture", "--set", "kd"], "write --set key=value"),
+        (["capture", "--set", "kd=red"], 'kd = "red" is not possible; allowed: three numbers'),
+        (["capture", "--set", "kq=1"], "--set: no value 'kq'; did you mean"),
+        (["capture", "--vary", "kd"], "write --vary key=one,other"),
+        (["capture", "--vary", "shading=flat,smooth"], 'shading = "smooth" is not possible'),
+        (["capture", "--vary", "kd=1,0,0", "-o", "x.npy"], "x.npy: a sheet"),
+        (["capture", "--size", "0x0"], "each 1 to 16384"),
+        (["capture", "--size", "wide"], '--size: size = "wide" is not possible'),
+        (["capture", "--size", "16384x16"], "more than this driver draws"),
+        (["capture", "--samples", "3"], "allowed: 1, 4, 9, 16"),
+        (["capture", "--timeout", "0"], "'0' is not a number of seconds above 0"),
+        (["capture", "-o", "x.gif"], "x.gif: a picture ends in .png, .hdr, .npy"),
+        (["capture", "-o", "gone/x.png"], "there is no folder"),
+        (["capture", "-o", "/dev/full.png/x.png"], "there is no folder"),
+        (["capture", "--light", "sun"], "--light: no light 'sun'"),
+        (["capture", "--light", "point:intensty=3"], "did you mean 'intensity'?"),
+        (["capture", "--shading", "smooth"], "allowed: one of flat, gouraud, phong"),
+        (["source", "--object", "2"], "--object 2: allowed: 1 to 1"),
+        (["info", "gone.obj"], "no file gone.obj"),
+        (["info", "nothing"], "nothing: no file that Lumiar reads"),
+        (["info"], "the following arguments are required: FILE"),
+        (["compare", "a.png", "b.png"], "a.png: no such file"),
+        (["compare", "a.png", "b.png", "--max-rmse", "-1"], "'-1' is not a number, 0 or more"),
+        (["list", "modles"], "invalid choice: 'modles'"),
+    ],
+)
+def test_a_mistake_is_one_line_and_exit_code_2(lumiar, tmp_path, arguments, told):
+    assert told in lumiar(*arguments, code=2).stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_error_in_a_shader_names_its_line(lumiar, tmp_path):
+    (tmp_path / "bad.glsl").write_text(
+        "// model   Bad\n\nvec3 scatter(vec3 L, vec3 V) {\n    return nope;\n}\n"
+    )
+    told = lumiar("capture", "--model", "bad.glsl", code=2).stderr
+    assert (
+        told.startswith("lumiar: bad.glsl:4: the driver does not compile this: ") and "nope" in told
+    )
+
+
+def test_a_name_in_any_bytes_is_shown(lumiar, tmp_path):
+    lumiar("info", b"no\xff\n\x1b[31m.obj", code=2)
+
+
+def test_a_crash_of_the_driver_is_one_line(lumiar, tmp_path):
+    """One legal line divides by zero inside Mesa's compiler; another driver may just compile it."""
+    (tmp_path / "crash.glsl").write_text(
+        LIMITS % "int b = (-2147483647 - 1) / -1; return vec3(float(b));"
+    )
+    done = subprocess.run(
+        [sys.executable, "-m", "lumiar", "capture", "--model", "crash.glsl", *SMALL],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert done.returncode in (0, 1)
+    if done.returncode == 1:
+        assert re.fullmatch(r"lumiar: the renderer ended with SIG\w+; .*\n", done.stderr)
+    assert leftovers(tmp_path) == []
+
+
+def start(tmp_path, *arguments, **options):
+    return subprocess.Popen(
+        [sys.executable, "-m", "lumiar", *arguments],
+        cwd=tmp_path,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        **options,
+    )
+
+
+def test_a_hanging_shader_ends_at_the_timeout(lumiar, tmp_path):
+    (tmp_path / "slow.glsl").write_text(LIMITS % SLOW)
+    before = time.monotonic()
+    slow = ("capture", "--model", "slow.glsl", "--size", "2000x2000", "--timeout", "2")
+    told = lumiar(*slow, code=1).stderr
+    assert time.monotonic() - before < 4.0  # 2 s, and up to 2 more
+    assert told == "lumiar: stopped after 2 s; --timeout SECONDS allows more\n"
+    assert [p.name for p in tmp_path.iterdir()] == ["slow.glsl"]
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_a_signal_ends_a_hung_draw_at_once(tmp_path, number, code):
+    (tmp_path / "slow.glsl").write_text(LIMITS % SLOW)
+    process = start(tmp_path, "capture", "--model", "slow.glsl", "--size", "2000x2000")
+    time.sleep(1.5)
+    before = time.monotonic()
+    process.send_signal(number)
+    _, told = process.communicate(timeout=10)
+    assert time.monotonic() - before < 1.0 and process.returncode == code
+    assert told == f"lumiar: {'interrupted' if number == signal.SIGINT else 'terminated'}\n"
+    assert [p.name for p in tmp_path.iterdir()] == ["slow.glsl"]
+    assert not subprocess.run(["pgrep", "-f", str(tmp_path)], capture_output=True).stdout
+
+
+def test_a_killed_parent_leaves_no_renderer_behind(tmp_path):
+    (tmp_path / "slow.glsl").write_text(LIMITS % SLOW)
+    more = ("--size", "2000x2000", "--timeout", "1")
+    with start(tmp_path, "capture", "--model", "slow.glsl", *more, start_new_session=True) as run:
+        time.sleep(0.7)
+        run.kill()
+        session = str(run.pid)
+        run.communicate()  # returns when the renderer, too, has closed its end of the pipes
+    listing = subprocess.check_output(["ps", "-eo", "sid=,stat="], text=True)
+    rows = [line.split() for line in listing.splitlines()]
+    assert not [row for row in rows if row[0] == session and not row[1].startswith("Z")]
+
+
+def test_a_full_disk_leaves_the_old_picture(lumiar, tmp_path):
+    lumiar("capture", *SMALL, "-o", "a.png")
+    old = (tmp_path / "a.png").read_bytes()
+
+    def little_room():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (3000, 3000))
+
+    told = lumiar("capture", "-o", "a.png", code=1, preexec_fn=little_room).stderr
+    assert told.startswith("lumiar: cannot write") and told.count("\n") == 1
+    assert (tmp_path / "a.png").read_bytes() == old
+    assert leftovers(tmp_path) == []
+
+
+def test_memory_is_limited(tmp_path):
+    """A child that eats memory is stopped, not the machine."""
+    code = (
+        "import sys; from lumiar import supervise; supervise.MEMORY = 300 << 20\n"
+        "sys.exit(supervise.supervised(lambda: len([bytearray(10 << 20) for _ in range(100000)])))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 1
+    assert done.stderr.startswith("lumiar: stopped when it held ")
+
+
+def test_what_the_killed_child_was_writing_goes(tmp_path):
+    code = (
+        "import os, signal, sys; from lumiar import files, supervise\n"
+        "def job():\n"
+        "    def chunks():\n"
+        "        yield b'half'\n"
+        "        os.kill(os.getpid(), signal.SIGKILL)\n"
+        "    files.write_whole('out.png', chunks())\n"
+        "sys.exit(supervise.supervised(job))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True
+    )
+    assert done.returncode == 1 and "SIGKILL" in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_no_driver_is_one_line(lumiar):
+    environment = {
+        "LIBGL_DRIVERS_PATH": "/nonexistent",
+        "__EGL_VENDOR_LIBRARY_DIRS": "/nonexistent",
+    }
+    told = lumiar("capture", *SMALL, code=2, env=environment).stderr
+    assert "OpenGL 3.3" in told and "apt install" in told
+
+
+def test_an_old_driver_is_one_line(lumiar):
+    told = lumiar("capture", *SMALL, code=2, env={"MESA_GL_VERSION_OVERRIDE": "3.0"}).stderr
+    assert "OpenGL 3.3" in told
+
+
+def test_source_is_what_is_compiled(lumiar, tmp_path):
+    text = lumiar(
+        "source", "--model", "lambert", "--light", "directional", "--shading", "flat"
+    ).stdout
+    stages = re.findall(r"^// ======== (\w+) stage ========$", text, re.MULTILINE)
+    assert stages == ["vertex", "geometry", "fragment"] and text.count("#version 330 core") == 3
+    assert "scatter" in text and "spot" not in text
+
+
+def test_info_tells_of_models_meshes_scenes_and_pictures(lumiar, tmp_path):
+    model = json.loads(lumiar("info", "phong", "--json").stdout)
+    assert model["claims"] == {"positive": "", "reciprocal": "form = normalised"}
+    assert {p["name"] for p in model["parameters"]} >= {"kd", "ks", "shininess", "form"}
+    assert "k_d, diffuse share (unitless)" in lumiar("info", "phong").stdout
+    (tmp_path / "quad.obj").write_text(
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf -4 -3 -2 -1\nf 1 1 2\n"
+    )
+    mesh = json.loads(lumiar("info", "quad.obj", "--json").stdout)
+    assert (mesh["triangles"], mesh["vertices"], mesh["closed"]) == (2, 4, False)
+    assert mesh["bounds"] == [[0, 0, 0], [1, 1, 0]]
+    assert mesh["repaired"] == ["1 degenerate triangles left out"]
+    assert "triangles       2" in lumiar("info", "quad.obj").stdout
+    scene = json.loads(lumiar("info", "teapot", "--json").stdout)
+    assert scene["kind"] == "mesh"  # a mesh and a scene share the name; the file tells them apart
+    assert json.loads(lumiar("info", "phong-terms", "--json").stdout)["kind"] == "scene"
+    assert lumiar("info", "spot").stdout.startswith("name            spot\nkind            light")
+
+
+def test_list_names_everything(lumiar):
+    text = lumiar("list").stdout
+    for name in ("phong", "directional", "torus_knot", "suzanne", "phong-terms"):
+        assert re.search(rf"^  {name}\b", text, re.MULTILINE), name
+    data = json.loads(lumiar("list", "--json").stdout)
+    assert set(data) == {"models", "lights", "meshes", "scenes"}
+    shininess = next(p for p in data["models"][2]["parameters"] if p["name"] == "shininess")
+    assert (
+        shininess["range"] == [1, 1000] and shininess["log"] and shininess["open"] == [False, True]
+    )
+    assert set(json.loads(lumiar("list", "lights", "--json").stdout)) == {"lights"}
+    assert "O bule de Utah" in lumiar("list", "scenes", env={"LC_ALL": "pt_BR.UTF-8"}).stdout
+
+
+def test_compare_is_a_gate(lumiar, tmp_path):
+    lumiar("capture", *SMALL, "-o", "a.png")
+    lumiar("capture", *SMALL, "--set", "kd=0.4,0.5,0.5", "-o", "b.png")
+    same = json.loads(lumiar("compare", "a.png", "a.png", "--max-rmse", "0", "--json").stdout)
+    assert same == {"rmse": 0.0, "max": 0.0, "share": 0.0, "not_finite": 0, "flip": 0.0, "over": []}
+    far = json.loads(
+        lumiar("compare", "a.png", "b.png", "--json", "-o", "d.png").stdout.partition("}")[0] + "}"
+    )
+    assert far["rmse"] > 0.01 and far["flip"] > 0.01 and 0.1 < far["share"] < 1.0
+    for name, key in (("rmse", "rmse"), ("error", "max"), ("share", "share"), ("flip", "flip")):
+        lumiar("compare", "a.png", "b.png", f"--max-{name}", far[key] * 1.01)
+        done = lumiar("compare", "a.png", "b.png", f"--max-{name}", far[key] * 0.99, code=1)
+        assert "over the limit" in done.stdout
+    assert pixels(tmp_path / "d.png").shape == (32, 48, 3)
+
+
+def test_captions_follow_the_language(lumiar, tmp_path):
+    for name, more in (
+        ("en", {}),
+        ("pt", {"LANG": "pt_BR.UTF-8", "LC_ALL": ""}),
+        ("asked", {"LANG": "pt_BR"}),
+    ):
+        option = ("--lang", "en") if name == "asked" else ()
+        lumiar(
+            "capture",
+            "phong-terms",
+            *SMALL,
+            *option,
+            "-o",
+            f"{name}.png",
+            env={"LC_ALL": "", **more},
+        )
+    assert pixels(tmp_path / "en.png").shape == pixels(tmp_path / "asked.png").shape
+    assert (pixels(tmp_path / "en.png") == pixels(tmp_path / "asked.png")).all()
+    same = pixels(tmp_path / "en.png").shape == pixels(tmp_path / "pt.png").shape
+    assert not same or (pixels(tmp_path / "en.png") != pixels(tmp_path / "pt.png")).any()
+
+
+def test_help_and_version(lumiar):
+    assert lumiar("--help").stdout.startswith("usage: lumiar VERB")
+    assert lumiar().stdout == lumiar("help").stdout
+    assert re.fullmatch(r"lumiar \d+\.\d+\.\d+\n", lumiar("--version").stdout)
+    for verb in ("capture", "info", "source", "compare", "list"):
+        assert f"usage: lumiar {verb}" in lumiar(verb, "--help").stdout
+
+
+def test_a_closed_pipe_is_no_drama(tmp_path):
+    command = f"{sys.executable} -m lumiar source | head -1"
+    done = subprocess.run(command, shell=True, cwd=tmp_path, capture_output=True, text=True)
+    assert done.stdout.startswith("// ====") and done.stderr == ""
+
+
+def test_progress_is_told_when_it_takes_long(lumiar, tmp_path):
+    (tmp_path / "slow.glsl").write_text(LIMITS % SLOW.replace("65000", "40"))
+    done = lumiar("capture", "--model", "slow.glsl", "--size", "1600x1600", "--samples", "16")
+    assert re.search(r"lumiar: lumiar\.png:  ?\d+%, \d+ s left\n", done.stderr)
+
+
+def test_eight_at_once_make_the_same_bytes(tmp_path):
+    runs = [start(tmp_path, "capture", *SMALL, "-o", f"{i}.png") for i in range(8)]
+    assert [run.wait(60) for run in runs] == [0] * 8
+    assert len({(tmp_path / f"{i}.png").read_bytes() for i in range(8)}) == 1
+    for run in runs:
+        run.communicate()
+
+
+def test_a_cached_mesh_needs_only_what_it_needs(lumiar, tmp_path):
+    lumiar("capture", "--mesh", "suzanne", *SMALL)
+    heavy = "numpy PIL trimesh pyrr glfw imgui_bundle tomllib json asyncio shutil lumiar.mesh"
+    code = (
+        "import sys; from lumiar import cli\n"
+        "cli.run(['capture', '--mesh', 'suzanne', '--size', '48x32'])\n"
+        f"print([m for m in '{heavy}'.split() if m in sys.modules])"
+    )
+    run = [sys.executable, "-c", code]
+    done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert done.stdout.split("\n")[1] == "[]"
+
+
+def test_as_a_library(tmp_path):
+    from lumiar import Scene, capture
+
+    picture = capture(Scene.default().set(size=(40, 30), mesh="teapot"))
+    assert picture._repr_png_().startswith(b"\x89PNG")
+    assert picture.size == (40, 30) and len(picture.pixels) == 40 * 30 * 3
+    capture(Scene.load("teapot").set(size=(40, 30)), tmp_path / "t.png")
+    assert pixels(tmp_path / "t.png").shape == (30, 40, 3)
+    capture(Scene.default().set(size=(8, 8)), str(tmp_path / "t.hdr"))
+    assert (tmp_path / "t.hdr").read_bytes().startswith(b"#?RADIANCE")
+    assert os.listdir(tmp_path)

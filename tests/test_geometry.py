@@ -1,0 +1,169 @@
+"""Meshes by name, and the cache of prepared ones."""
+
+import os
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+from lumiar import cache, geometry
+from lumiar.errors import Mistake
+
+TRIANGLE = "OFF\n3 1 0\n0 0 0\n2 0 0\n0 1 0\n3 0 1 2\n"
+
+
+@pytest.fixture(autouse=True)
+def empty_cache(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    return tmp_path / "cache" / "lumiar"
+
+
+def bytes_of(one):
+    return [bytes(part) for part in one[:3]], one[3:]
+
+
+@pytest.mark.parametrize("spec", ["sphere:subdivision=2", "teapot:segments=3", "suzanne", "file"])
+@pytest.mark.parametrize("tangents", [False, True])
+def test_a_mesh_is_the_same_from_the_cache(tmp_path, empty_cache, spec, tangents):
+    if spec == "file":
+        spec = str(tmp_path / "t.off")
+        (tmp_path / "t.off").write_text(TRIANGLE)
+    first, digest = geometry.load(spec, tangents=tangents)
+    assert len(list(empty_cache.iterdir())) == 1
+    second, again = geometry.load(spec, tangents=tangents)
+    assert bytes_of(first) == bytes_of(second) and digest == again
+    assert isinstance(second.vertices, memoryview)  # mapped, not read
+    assert len(first.tangents) == (first.vertex_count * 16 if tangents else 0)
+
+
+def test_the_second_time_needs_no_numpy(tmp_path):
+    (tmp_path / "t.off").write_text(TRIANGLE)
+    code = (
+        "import sys; from lumiar import geometry; "
+        "print(geometry.load(sys.argv[1])[0].triangle_count, 'numpy' in sys.modules)"
+    )
+    run = [sys.executable, "-c", code, str(tmp_path / "t.off")]
+    assert subprocess.check_output(run, text=True) == "1 True\n"
+    assert subprocess.check_output(run, text=True) == "1 False\n"
+
+
+def test_the_cache_goes_by_content_not_by_name_or_time(tmp_path, empty_cache):
+    path = tmp_path / "t.off"
+    path.write_text(TRIANGLE)
+    stamp = path.stat()
+    assert geometry.load(str(path))[0].high == (2.0, 1.0, 0.0)
+    path.write_text(TRIANGLE.replace("2 0 0", "3 0 0"))
+    os.utime(path, ns=(stamp.st_atime_ns, stamp.st_mtime_ns))  # same name, size and time
+    assert geometry.load(str(path))[0].high == (3.0, 1.0, 0.0)
+    (tmp_path / "copy.off").write_text(TRIANGLE)
+    geometry.load(str(tmp_path / "copy.off"))
+    assert len(list(empty_cache.iterdir())) == 2
+
+
+def test_a_gltf_is_its_buffers_too(tmp_path):
+    """The .bin beside a .gltf changes; the .gltf does not."""
+    import json
+
+    def write(height):
+        points = np.array([[0, 0, 0], [1, 0, 0], [0, height, 0]], "<f4").tobytes()
+        (tmp_path / "t.bin").write_bytes(points)
+
+    tree = {
+        "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"uri": "t.bin", "byteLength": 36}],
+    }
+    (tmp_path / "t.gltf").write_text(json.dumps(tree))
+    for height in (1.0, 5.0):
+        write(height)
+        assert geometry.load(str(tmp_path / "t.gltf"))[0].high[1] == height
+
+
+@pytest.mark.parametrize("damage", ["cut", "empty", "noise", "folder"])
+def test_a_damaged_entry_is_made_again(empty_cache, damage):
+    first, _ = geometry.load("sphere:subdivision=1")
+    first = bytes_of(first)
+    (entry,) = empty_cache.iterdir()
+    data = entry.read_bytes()
+    entry.unlink()
+    if damage == "folder":
+        entry.mkdir()
+    else:
+        entry.write_bytes(
+            {"cut": data[: len(data) // 2], "empty": b"", "noise": b"x" * 500}[damage]
+        )
+    assert bytes_of(geometry.load("sphere:subdivision=1")[0]) == first
+
+
+def test_without_a_place_for_the_cache_all_works(tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
+    assert geometry.load("sphere:subdivision=1")[0].triangle_count == 80
+
+
+def test_many_at_once_agree(empty_cache):
+    with ThreadPoolExecutor(8) as pool:
+        made = list(pool.map(lambda _: bytes_of(geometry.load("torus:rings=9")[0]), range(24)))
+    assert all(one == made[0] for one in made)
+    assert len([p for p in empty_cache.iterdir() if p.suffix == ".tmp"]) == 0
+
+
+def test_the_cache_forgets_the_oldest(empty_cache, monkeypatch):
+    monkeypatch.setattr(cache, "LIMIT", 30_000)
+    for i in range(8):
+        cache.put(i, [bytes(10_000)])
+        os.utime(cache._path(i), (i, i))
+    cache.put("last", [b"x"])
+    kept = [i for i in range(8) if cache.get(i)]
+    assert kept and kept == list(range(8 - len(kept), 8)) and len(kept) <= 3
+    assert bytes(cache.get("last")[0]) == b"x"
+
+
+def test_leftovers_are_swept(empty_cache):
+    cache.put(1, [b"x"])
+    old = empty_cache / ".gone.bin.123.tmp"
+    old.write_bytes(b"half")
+    os.utime(old, (0, 0))
+    cache.put(2, [b"y"])
+    assert not old.exists()
+
+
+def test_shipped_meshes_have_a_name():
+    one, _ = geometry.load("suzanne")
+    assert one.triangle_count == 14842 and one.places == 7503
+
+
+@pytest.mark.parametrize(
+    ("spec", "told"),
+    [
+        ("spere", "no mesh 'spere'; did you mean 'sphere'?"),
+        (
+            "sphere:subdivision=12",
+            "subdivision = 12.0 is not possible; allowed: a whole number, 0 to 9",
+        ),
+        ("sphere:subdivision", 'subdivision = "" is not possible'),
+        ("sphere:5", "sphere has no parameter '5'; allowed: radius, subdivision"),
+        ("gone.stl", "no file /"),
+        ("", "no mesh ''"),
+        ("x.blend", "or a file that ends in .obj"),
+    ],
+)
+def test_what_is_no_mesh_is_told(spec, told):
+    with pytest.raises(Mistake) as mistake:
+        geometry.load(spec, where="here: ")
+    assert str(mistake.value).startswith("here: ") and told in str(mistake.value)
+
+
+def test_bounds_are_of_what_is_drawn(tmp_path):
+    (tmp_path / "t.off").write_text(
+        TRIANGLE.replace("3 1 0\n", "4 1 0\n").replace("3 0 1 2", "9 9 9\n3 0 1 2")
+    )
+    one, _ = geometry.load(str(tmp_path / "t.off"))
+    assert (one.low, one.high) == ((0.0, 0.0, 0.0), (2.0, 1.0, 0.0))
+    assert one.centre == (1.0, 0.5, 0.0) and one.radius == pytest.approx(np.hypot(1.0, 0.5))
