@@ -6,8 +6,8 @@ from lumiar import geometry, reference
 
 
 def arrays(spec, crease=None):
-    """Return (positions, normals, triangles) of a mesh as the graphics card gets them, in float64."""
-    mesh, _ = geometry.load(spec, crease=crease)
+    """Return (positions, normals, triangles) of a mesh as the card gets them, in float64."""
+    mesh = geometry.load(spec, crease=crease)
     vertices = np.frombuffer(mesh.vertices, np.float32).reshape(-1, 6).astype(np.float64)
     return vertices[:, :3], vertices[:, 3:], np.frombuffer(mesh.indices, np.uint32).reshape(-1, 3)
 
@@ -25,7 +25,7 @@ def local(w, normals):
 
 
 def incident(light, points):
-    """Return (directions to the light, irradiance on a facing surface) at points, from the units."""
+    """Return (directions to the light, irradiance on a facing surface) at points."""
     values = {k: np.asarray(v, np.float64) for k, v in light.values.items()}
     if light.kind.name == "directional":
         toward = np.broadcast_to(unit(values["direction"]), points.shape)

@@ -30,6 +30,7 @@ def test_looking_agrees_with_pyrr(case):
 def test_the_lens_agrees_with_pyrr(fov, aspect):
     found = array(camera.perspective(fov, aspect, 0.1, 50.0))
     expected = pyrr.matrix44.create_perspective_projection(fov, aspect, 0.1, 50.0).T
+    expected[1] *= -1.0  # our y points down, for rows from the top
     assert np.allclose(found, expected, rtol=1e-6, atol=1e-7)
 
 

@@ -129,7 +129,7 @@ def test_lights_are_unrolled_by_name():
     body = code(source)
     for i in (1, 2, 3):
         assert len(re.findall(rf"\blight_{i}\(", body)) == 2  # the function and its one call
-        assert f"uniform float intensity_{i} " in body
+        assert f"uniform vec3 intensity_{i} " in body
     assert "struct Incident" in body and body.count("struct Incident") == 1
     assert not re.search(r"\bfor\b|\bif\s*\(\s*rig_", body)
 

@@ -30,10 +30,10 @@ def test_a_mesh_is_the_same_from_the_cache(tmp_path, empty_cache, spec, tangents
     if spec == "file":
         spec = str(tmp_path / "t.off")
         (tmp_path / "t.off").write_text(TRIANGLE)
-    first, digest = geometry.load(spec, tangents=tangents)
+    first = geometry.load(spec, tangents=tangents)
     assert len(list(empty_cache.iterdir())) == 1
-    second, again = geometry.load(spec, tangents=tangents)
-    assert bytes_of(first) == bytes_of(second) and digest == again
+    second = geometry.load(spec, tangents=tangents)
+    assert bytes_of(first) == bytes_of(second)
     assert isinstance(second.vertices, memoryview)  # mapped, not read
     assert len(first.tangents) == (first.vertex_count * 16 if tangents else 0)
 
@@ -42,7 +42,7 @@ def test_the_second_time_needs_no_numpy(tmp_path):
     (tmp_path / "t.off").write_text(TRIANGLE)
     code = (
         "import sys; from lumiar import geometry; "
-        "print(geometry.load(sys.argv[1])[0].triangle_count, 'numpy' in sys.modules)"
+        "print(geometry.load(sys.argv[1]).triangle_count, 'numpy' in sys.modules)"
     )
     run = [sys.executable, "-c", code, str(tmp_path / "t.off")]
     assert subprocess.check_output(run, text=True) == "1 True\n"
@@ -53,10 +53,10 @@ def test_the_cache_goes_by_content_not_by_name_or_time(tmp_path, empty_cache):
     path = tmp_path / "t.off"
     path.write_text(TRIANGLE)
     stamp = path.stat()
-    assert geometry.load(str(path))[0].high == (2.0, 1.0, 0.0)
+    assert geometry.load(str(path)).high == (2.0, 1.0, 0.0)
     path.write_text(TRIANGLE.replace("2 0 0", "3 0 0"))
     os.utime(path, ns=(stamp.st_atime_ns, stamp.st_mtime_ns))  # same name, size and time
-    assert geometry.load(str(path))[0].high == (3.0, 1.0, 0.0)
+    assert geometry.load(str(path)).high == (3.0, 1.0, 0.0)
     (tmp_path / "copy.off").write_text(TRIANGLE)
     geometry.load(str(tmp_path / "copy.off"))
     assert len(list(empty_cache.iterdir())) == 2
@@ -82,13 +82,12 @@ def test_a_gltf_is_its_buffers_too(tmp_path):
     (tmp_path / "t.gltf").write_text(json.dumps(tree))
     for height in (1.0, 5.0):
         write(height)
-        assert geometry.load(str(tmp_path / "t.gltf"))[0].high[1] == height
+        assert geometry.load(str(tmp_path / "t.gltf")).high[1] == height
 
 
 @pytest.mark.parametrize("damage", ["cut", "empty", "noise", "folder"])
 def test_a_damaged_entry_is_made_again(empty_cache, damage):
-    first, _ = geometry.load("sphere:subdivision=1")
-    first = bytes_of(first)
+    first = bytes_of(geometry.load("sphere:subdivision=1"))
     (entry,) = empty_cache.iterdir()
     data = entry.read_bytes()
     entry.unlink()
@@ -98,18 +97,18 @@ def test_a_damaged_entry_is_made_again(empty_cache, damage):
         entry.write_bytes(
             {"cut": data[: len(data) // 2], "empty": b"", "noise": b"x" * 500}[damage]
         )
-    assert bytes_of(geometry.load("sphere:subdivision=1")[0]) == first
+    assert bytes_of(geometry.load("sphere:subdivision=1")) == first
 
 
 def test_without_a_place_for_the_cache_all_works(tmp_path, monkeypatch):
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
-    assert geometry.load("sphere:subdivision=1")[0].triangle_count == 80
+    assert geometry.load("sphere:subdivision=1").triangle_count == 80
 
 
 def test_many_at_once_agree(empty_cache):
     with ThreadPoolExecutor(8) as pool:
-        made = list(pool.map(lambda _: bytes_of(geometry.load("torus:rings=9")[0]), range(24)))
+        made = list(pool.map(lambda _: bytes_of(geometry.load("torus:rings=9")), range(24)))
     assert all(one == made[0] for one in made)
     assert len([p for p in empty_cache.iterdir() if p.suffix == ".tmp"]) == 0
 
@@ -135,7 +134,7 @@ def test_leftovers_are_swept(empty_cache):
 
 
 def test_shipped_meshes_have_a_name():
-    one, _ = geometry.load("suzanne")
+    one = geometry.load("suzanne")
     assert one.triangle_count == 14842 and one.places == 7503
 
 
@@ -164,6 +163,6 @@ def test_bounds_are_of_what_is_drawn(tmp_path):
     (tmp_path / "t.off").write_text(
         TRIANGLE.replace("3 1 0\n", "4 1 0\n").replace("3 0 1 2", "9 9 9\n3 0 1 2")
     )
-    one, _ = geometry.load(str(tmp_path / "t.off"))
+    one = geometry.load(str(tmp_path / "t.off"))
     assert (one.low, one.high) == ((0.0, 0.0, 0.0), (2.0, 1.0, 0.0))
     assert one.centre == (1.0, 0.5, 0.0) and one.radius == pytest.approx(np.hypot(1.0, 0.5))

@@ -29,8 +29,7 @@ HOMES = {  # a heavy library and the modules that may know it
     "moderngl": {"renderer"},
     "glcontext": {"renderer"},
     "PIL": {"image", "sheet"},
-    "tomli_w": {"scenefile"},
-    "isal": {"image"},
+    "isal": {"image", "cache"},
     "flip_evaluator": {"difference"},
 }
 MODULES = sorted(p for p in APP.rglob("*.py") if p.name not in ("__init__.py", "__main__.py"))

@@ -58,10 +58,10 @@ def captured(scene, renderer, program, names):
     array = renderer.context.vertex_array(
         program,
         [
-            (entry[2], "3f 3f" if "rig_vertex_normal" in program else "3f 12x", "rig_vertex")
+            (entry[1], "3f 3f" if "rig_vertex_normal" in program else "3f 12x", "rig_vertex")
             + (("rig_vertex_normal",) if "rig_vertex_normal" in program else ())
         ],
-        *([entry[4]] if names == ["rig_face"] else []),
+        *([entry[3]] if names == ["rig_face"] else []),
     )
     frame = renderer.context.framebuffer([renderer.context.texture((4, 4), 4)])
     frame.use()  # transform feedback draws nothing, and still needs somewhere to draw
@@ -240,10 +240,9 @@ def test_lights_add(renderer):
 
 
 def test_many_lights_of_one_kind(renderer):
-    from dataclasses import replace
 
     one = lit("point")
-    many = replace(one, lights=one.lights * 12)
+    many = one._replace(lights=one.lights * 12)
     lit_pixels = radiance(one, renderer)[20:60, 30:60]
     assert np.allclose(radiance(many, renderer)[20:60, 30:60], 12 * lit_pixels, rtol=1e-5)
 
@@ -405,19 +404,17 @@ def test_tangents_reach_a_model_that_asks_for_them(renderer, tmp_path, rate):
 
 
 def test_several_objects_hide_each_other(renderer):
-    from dataclasses import replace
 
     scene = lit("ambient", model="lambert", background=0.0, size=(32, 32))
-    near = replace(
-        scene.objects[0],
+    near = scene.objects[0]._replace(
         position=(0.0, 0.0, 2.0),
         values={"albedo": (1.0, 0.0, 0.0), "form": "normalised"},
     )
-    far = replace(
-        near, position=(0.0, 0.0, -2.0), values={**near.values, "albedo": (0.0, 1.0, 0.0)}
+    far = near._replace(
+        position=(0.0, 0.0, -2.0), values={**near.values, "albedo": (0.0, 1.0, 0.0)}
     )
     for order in ((near, far), (far, near)):
-        both = replace(scene, objects=order).set(camera__azimuth=0, camera__elevation=0)
+        both = scene._replace(objects=order).set(camera__azimuth=0, camera__elevation=0)
         middle = radiance(both, renderer)[16, 16]
         assert middle[0] > 0.1 and middle[1] == 0.0
 

@@ -2,7 +2,6 @@
 
 import math
 import os
-from dataclasses import FrozenInstanceError, replace
 
 import pytest
 
@@ -103,7 +102,7 @@ def test_every_shipped_scene_loads_and_survives_its_own_text():
 
 
 def test_a_scene_is_frozen():
-    with pytest.raises(FrozenInstanceError):
+    with pytest.raises(AttributeError):
         Scene.default().exposure = 1.0
 
 
@@ -277,7 +276,7 @@ def test_changing_the_model_keeps_what_was_set_and_still_fits():
 
 def test_two_objects_that_are_equal_can_be_told_apart():
     one = Scene.default().objects[0]
-    scene = replace(Scene.default(), objects=(one, one, one))
+    scene = Scene.default()._replace(objects=(one, one, one))
     shades = [o.values["shininess"] for o in scene.changed("object.2.shininess", 9).objects]
     assert shades == [40.0, 9.0, 40.0]
 

@@ -71,11 +71,14 @@ def look_at(eye, target, up):
 
 
 def perspective(fov, aspect, near, far):
-    """Return the projection onto OpenGL's clip space; fov is the vertical angle in degrees."""
+    """Return the projection onto clip space; fov is the vertical angle in degrees.
+
+    y points down there, so that the first row OpenGL draws is the top row of the picture.
+    """
     scale = 1.0 / math.tan(math.radians(fov) / 2.0)
     depth = near - far
     row = ((far + near) / depth, 2.0 * far * near / depth)
-    first = (scale / aspect, 0.0, 0.0, 0.0, 0.0, scale, 0.0, 0.0)
+    first = (scale / aspect, 0.0, 0.0, 0.0, 0.0, -scale, 0.0, 0.0)
     return (*first, 0.0, 0.0, *row, 0.0, 0.0, -1.0, 0.0)
 
 

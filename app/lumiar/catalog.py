@@ -2,11 +2,11 @@
 
 import os
 import re
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from .errors import Mistake, nearest
 from .files import GLSL, read_text
-from .parameter import Parameter, parse_uniform
+from .parameter import TINT, Parameter, parse_uniform
 
 SOURCE_LIMIT = 1 << 20  # bytes of one GLSL file; a longer one is refused before any driver sees it
 CLAIMS = ("positive", "reciprocal", "conserving")
@@ -28,8 +28,7 @@ _COMMENT = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)", re.DOTALL)
 _FUNCTION = re.compile(r"^[ \t]*\w+[ \t]+(\w+)[ \t]*\(", re.MULTILINE)
 
 
-@dataclass(frozen=True)
-class Shader:
+class Shader(NamedTuple):
     """One GLSL file: kind is model, light or rig; name is what a scene calls it by.
 
     claims maps each claimed property to the condition it is claimed under ("" for always);
@@ -98,6 +97,9 @@ def parse(kind, name, path, text):
         if parameter.name in OWN_KEYS.get(kind, ()):
             raise Mistake(f"{path}:{number}: '{parameter.name}' is a key of scenes; rename it")
         parameters[parameter.name] = parameter
+    if any(parameter.tinted for parameter in parameters.values()):
+        what = "colour of the light" if kind == "light" else "colour of what is tinted"
+        parameters[TINT] = Parameter(TINT, "vec3", (1.0, 1.0, 1.0), "color", 0.0, 1.0, text=what)
     defines = frozenset(_FUNCTION.findall(code))
     wanted = DEFINES.get(kind)
     if wanted and not defines.intersection(wanted):
@@ -113,8 +115,8 @@ def parse(kind, name, path, text):
 
 
 def without_comments(text):
-    """Return GLSL text with every comment blanked out, all lines in place."""
-    return _COMMENT.sub(lambda found: re.sub(r"[^\n]", " ", found.group()), text)
+    """Return GLSL text without its comments, all lines in place."""
+    return _COMMENT.sub(lambda found: "\n" * found.group().count("\n"), text)
 
 
 def _header(lines):

@@ -17,12 +17,17 @@ exit codes: 0 done; 1 the renderer or the disk failed, or compare found too much
 what was given; 3 broken pixels under --strict; 130 and 143 interrupted and terminated"""
 
 
-def main(argv=None):
-    """Run a command line and return its exit code; rendering happens in a supervised child."""
+def main():
+    """Run the command line in a supervised child, and end this process with its exit code."""
+    import gc
+
     from .supervise import supervised
 
-    argv = sys.argv[1:] if argv is None else argv
-    return supervised(lambda: run(argv))
+    gc.disable()  # a short life makes little garbage, and looking for it takes milliseconds
+    code = supervised(lambda: run(sys.argv[1:]))
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(code)  # leaves out the interpreter's tidying-up
 
 
 def run(argv):

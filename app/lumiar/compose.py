@@ -25,7 +25,7 @@ MAX_UNIFORMS, MAX_ARRAY = 1024, 4096  # beyond, a driver's compiler may crash in
 _INCLUDE = re.compile(r'\s*#\s*include\b\s*(?:"([^"]*)"\s*$)?')
 _MARK = re.compile(r"\s*// (each|where) ([a-z_ ]+)$")
 _ARRAY = re.compile(r"\[\s*(\d+)\s*\]")
-_TOKEN = re.compile(r"(#(?:\\\n|[^\n])*)|([A-Za-z_]\w*)|(\n)|[{}()\[\];,=]|\.\s*\w+|\d[\w.]*")
+_WORD = re.compile(r"[A-Za-z_]\w*")
 _ALWAYS = {"layout", "in", "out", "flat", "smooth", "noperspective", "centroid", "precision"}
 
 
@@ -217,43 +217,49 @@ def _chunks(text):
     """Return the top-level declarations of comment-free GLSL: [(first, last, names, words, kept)].
 
     first and last are line indices, names what a chunk declares, words the identifiers in it; kept
-    says that it stays whether used or not. Two declarations that share a line make one chunk.
+    says that it stays whether used or not. Declarations that share a line make one chunk.
     """
-    chunks, line = [], 0
-    first, names, words, kept = 0, set(), set(), False
-    depth, last, naming, complete = 0, "", True, True
-    for found in _TOKEN.finditer(text + "\n"):
-        token = found.group()
-        directive, word, newline = found.groups()
-        if newline:
-            if complete and depth == 0:
-                chunks.append((first, line, names, words, kept))
-                first, names, words, kept, naming = line + 1, set(), set(), False, True
-            line += 1
-            continue
-        if directive:
-            kept = True
-            words.update(re.findall(r"[A-Za-z_]\w*", directive))
-            line += directive.count("\n")
-            continue
-        if word:
-            words.add(word)
-            kept = kept or (depth == 0 and word in _ALWAYS)
-            if last == "struct":
-                names.add(word)
-        elif depth == 0 and naming and token in "(=,;[" and last.isidentifier():
-            names.add(last)
-        if token in "([{":
-            depth += 1
-        elif token in ")]}":
-            depth -= 1
-        elif depth == 0 and token in "=,;":
-            naming = token != "="
-        complete = token in ";}"
-        last = token
-    if not complete or depth:
-        chunks.append((first, line - 1, names, words, True))
-    return chunks
+    chunks, first, depth, lines = [], 0, 0, text.split("\n")
+    continued = False
+    for i, line in enumerate(lines):
+        bare = line.strip()
+        directive = bare.startswith("#") or continued
+        continued = directive and bare.endswith("\\")
+        if not directive:
+            depth += sum(map(bare.count, "({[")) - sum(map(bare.count, ")}]"))
+        open_end = bare and bare[-1] not in ";}" and not directive
+        if (depth == 0 and not open_end and not continued) or i == len(lines) - 1:
+            code = "\n".join(lines[first : i + 1])
+            words = set(_WORD.findall(code))
+            chunks.append((first, i, *_declared(code, words), words))
+            first = i + 1
+    return [(first, last, names, words, kept) for first, last, names, kept, words in chunks]
+
+
+def _declared(code, words):
+    """Return (names that a chunk of GLSL declares, whether it stays in any case)."""
+    head, brace, body = code.partition("{")
+    if "#" in code or not words.isdisjoint(_ALWAYS & set(_WORD.findall(head))):
+        return set(), True
+    if "struct" in words:
+        return set(re.findall(r"\bstruct\s+(\w+)", code)), False
+    if brace:
+        return set(_WORD.findall(head.partition("(")[0])[-1:]), _holds_several(body)
+    while "(" in head and head != (head := re.sub(r"\([^()]*\)", "", head)):
+        pass  # what is in brackets declares nothing
+    return set(
+        re.findall(r"(\w+)\s*(?:\[[^\]]*\]\s*)?(?==|,|;)", re.sub(r"=[^,;]*", "=", head))
+    ), False
+
+
+def _holds_several(body):
+    """Return whether a function body, from behind its first brace, ends before the text does."""
+    depth = 1
+    for found in re.finditer(r"[{}]", body):
+        depth += 1 if found.group() == "{" else -1
+        if depth == 0:
+            return bool(body[found.end() :].strip(" ;\n"))
+    return False
 
 
 def _unreachable(chunks):

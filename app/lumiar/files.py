@@ -45,7 +45,7 @@ def read_bytes(path, limit, what):
         if status.st_size > limit:
             raise Mistake(f"{path}: {status.st_size} bytes; allowed for {what}: up to {limit}")
         with open(path, "rb") as file:
-            return file.read(limit)
+            return file.read(status.st_size)
     except FileNotFoundError:
         raise Mistake(f"{path}: no such file; name {what}") from None
     except (OSError, ValueError) as error:

@@ -145,7 +145,7 @@ def _settings(name, settings, where):
 
 
 def load(spec, folder="", crease=None, tangents=False, where=""):
-    """Return (Geometry, digest) of what a scene calls a mesh; see `resolve` and `content_digest`.
+    """Return the Geometry of what a scene calls a mesh; see `resolve`.
 
     crease is the angle in degrees beyond which an edge stays sharp; None keeps the normals that the
     file has. A mesh prepared once comes from the cache, mapped into memory, in a millisecond
@@ -153,18 +153,18 @@ def load(spec, folder="", crease=None, tangents=False, where=""):
     """
     shape, values, path = resolve(spec, folder, where)
     data = read_bytes(path, FILE_LIMIT, "a mesh file") if path else b""
-    digest = content_digest(path, data) if path else ""
-    key = (shape, values, digest, crease, tangents, _code_version(), sys.byteorder)
-    parts = cache.get(key)
+    contents = [cache.fingerprint(part) for part in file_parts(path, data)] if path else []
+    key = (shape, values, path and path[-4:], contents, crease, tangents, _code_version())
+    parts = cache.get((*key, sys.byteorder))
     if parts:
         *numbers, places, closed = _FACTS.unpack(parts[3])
         notes = tuple(filter(None, bytes(parts[4]).decode().split("\n")))
-        return Geometry(*parts[:3], *_vectors(numbers), places, closed, notes), digest
-    geometry = prepare(read_mesh(shape, values, path, data, crease), tangents, path or shape)
-    g = geometry
+        return Geometry(*parts[:3], *_vectors(numbers), places, closed, notes)
+    g = prepare(read_mesh(shape, values, path, data, crease), tangents, path or shape)
     facts = _FACTS.pack(*g.low, *g.high, *g.centre, g.radius, g.places, g.closed)
-    cache.put(key, (g.vertices, g.tangents, g.indices, facts, "\n".join(g.notes).encode()))
-    return geometry, digest
+    parts = (g.vertices, g.tangents, g.indices, facts, "\n".join(g.notes).encode())
+    cache.put((*key, sys.byteorder), parts)
+    return g
 
 
 def _vectors(numbers):
@@ -205,16 +205,18 @@ def prepare(mesh, tangents, name):
     )
 
 
-def content_digest(path, data):
-    """Return the SHA-256, in hexadecimal, of a mesh file's bytes and of the files it is made of."""
+def file_parts(path, data):
+    """Return the bytes that a mesh file consists of: its own, and those of the buffers it names."""
     parts = [data]
     if path.lower().endswith(".gltf"):
+        from urllib.parse import unquote_to_bytes
+
         folder = os.path.dirname(path)
         for uri in re.findall(rb'"uri"\s*:\s*"([^":]+)"', data):
             with contextlib.suppress(Mistake, ValueError):
-                name = os.path.join(folder, os.fsdecode(uri))
+                name = os.path.join(folder, os.fsdecode(unquote_to_bytes(uri)))
                 parts.append(read_bytes(name, FILE_LIMIT, "a buffer"))
-    return cache.digest(*parts)
+    return parts
 
 
 def _code_version():

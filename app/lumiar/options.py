@@ -3,7 +3,6 @@
 import argparse
 import os
 import re
-from dataclasses import replace
 
 from .errors import Mistake, nearest
 
@@ -49,7 +48,7 @@ def scene(options):
             one = one.changed(key, value, f"--{key}: ", here)
     if options.light:
         lights = (settings.light(spec, "--light: ", here) for spec in options.light)
-        one = replace(one, lights=tuple(lights))
+        one = one._replace(lights=tuple(lights))
     pairs = []
     for setting in options.set:
         key, equals, value = setting.partition("=")
@@ -83,8 +82,8 @@ def varied(one, varies, sized):
     made = (Panel({"en": c}, panel) for c, panel in zip(captions, panels, strict=True))
     if not sized:
         share = min(1.0, SHEET_CELL / max(one.size))
-        one = replace(one, size=tuple(max(1, round(side * share)) for side in one.size))
-    return replace(one, panels=tuple(made), columns=min(len(values), 64))
+        one = one._replace(size=tuple(max(1, round(side * share)) for side in one.size))
+    return one._replace(panels=tuple(made), columns=min(len(values), 64))
 
 
 def _shown(value):

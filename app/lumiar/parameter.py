@@ -2,25 +2,27 @@
 
 import math
 import re
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from .errors import Mistake
 
 SIZES = {"float": 1, "int": 1, "bool": 1, "ivec2": 2, "vec2": 2, "vec3": 3, "vec4": 4}
 EXAMPLE = "uniform float k = 0.7;  // [0, 1]: what it is (unit)"
 _COUNTS = ("", "", "two numbers, each ", "three numbers, each ", "four numbers, each ")
+TINT = "color"  # the parameter that colours the tinted ones of a file
+_WORDS = {"log", "degrees", "tinted"}
 _LARGEST = 1e30  # beyond this, squares and products leave the range of a 32-bit float
 _UNIFORM = re.compile(r"\s*uniform\s+(\w+)\s+(\w+)\s*(?:=\s*([^;]*\S)\s*)?;\s*(?://\s*(.*?)\s*)?$")
 _RANGE = re.compile(r"\[\s*(\.\.)?\s*([^,\s]+)\s*,\s*([^,\s\]]+?)\s*(\.\.)?\s*\](.*)")
 
 
-@dataclass(frozen=True)
-class Parameter:
+class Parameter(NamedTuple):
     """A value with a name, a type and a domain.
 
     type is float, int, bool, ivec2, vec2, vec3 or vec4; widget is slider, color, direction, toggle,
     choice or time. low and high bound the slider and, unless that side is open, the value. An angle
-    in degrees here is in radians in the shader. line is where a GLSL file declares it.
+    in degrees here is in radians in the shader. A tinted one is a number here and, times the value
+    of TINT, a vec3 in the shader. line is where a GLSL file declares it.
     """
 
     name: str
@@ -32,6 +34,7 @@ class Parameter:
     open: tuple[bool, bool] = (False, False)
     log: bool = False
     degrees: bool = False
+    tinted: bool = False
     choices: tuple[str, ...] = ()
     text: str = ""
     unit: str = ""
@@ -123,9 +126,10 @@ def parse_uniform(line, number, path):
     unit = re.fullmatch(r"(.*?)\s*\(([^()]*)\)", text.strip())
     text, unit = unit.groups() if unit else (text.strip(), "")
     fields = _widget(form.strip(), kind, where)
+    kind = "float" if fields.get("tinted") else kind
     bare = Parameter(name, kind, None, text=text, unit=unit, line=number, **fields)
     default = bare.check(_default(initial, bare, where), where + "the default ")
-    return Parameter(name, kind, default, text=text, unit=unit, line=number, **fields)
+    return bare._replace(default=default)
 
 
 def _widget(form, kind, where):
@@ -136,14 +140,14 @@ def _widget(form, kind, where):
         words = set(words.split())
         try:
             low, high = float(low), float(high)
-            good = low < high and not words - {"log", "degrees"} and (low > 0 or "log" not in words)
+            good = low < high and (low > 0 or "log" not in words)
         except ValueError:
             good = False
-        if not good:
-            advice = "write [lo, hi] with lo < hi, then log (needs lo > 0) or degrees if meant"
-            raise Mistake(f"{where}'{form}' is no range; {advice}")
+        if not good or words - _WORDS or ("tinted" in words and kind != "vec3"):
+            advice = "write [lo, hi] with lo < hi, then log (lo > 0), degrees or tinted (a vec3)"
+            raise Mistake(f"{where}'{form}' is no range for a {kind}; {advice}")
         ends = {"low": low, "high": high, "open": (bool(before), bool(after))}
-        return {"widget": "slider", "log": "log" in words, "degrees": "degrees" in words, **ends}
+        return {"widget": "slider", **{word: word in words for word in _WORDS}, **ends}
     if form.startswith("{") and form.endswith("}") and kind == "int":
         choices = tuple(word.strip() for word in form[1:-1].split(","))
         if len(set(choices)) == len(choices) > 1 and all(c.isidentifier() for c in choices):

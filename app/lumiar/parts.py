@@ -1,6 +1,6 @@
-"""What a scene consists of, as frozen dataclasses, and the domain and unit of each value."""
+"""What a scene consists of, as immutable records, and the domain and unit of each value."""
 
-from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from .catalog import Shader
 from .parameter import Parameter
@@ -9,8 +9,7 @@ RATES = ("flat", "gouraud", "phong")
 TONES = ("none", "reinhard", "aces")
 
 
-@dataclass(frozen=True)
-class Camera:
+class Camera(NamedTuple):
     """The eye; what is None follows from the scene. See CAMERA for domains and units."""
 
     position: tuple[float, float, float] | None = None
@@ -22,8 +21,7 @@ class Camera:
     distance: float | None = None
 
 
-@dataclass(frozen=True)
-class Object:
+class Object(NamedTuple):
     """A mesh with a model on it. See OBJECT; values holds every parameter of the model.
 
     mesh is what `geometry.canonical` returns; values maps parameter names to checked values.
@@ -40,8 +38,7 @@ class Object:
     crease: float | None = None
 
 
-@dataclass(frozen=True)
-class Light:
+class Light(NamedTuple):
     """A light of some kind; values holds every parameter of the kind."""
 
     kind: Shader
@@ -49,15 +46,14 @@ class Light:
     name: str = ""
 
 
-@dataclass(frozen=True)
-class Panel:
+class Panel(NamedTuple):
     """One picture of a sheet: the scene with some values changed, or another scene altogether.
 
     caption maps a language (en, pt) to a line; values are pairs for `settings.changed`; scene is
     the name or path of another scene, or empty.
     """
 
-    caption: dict = field(default_factory=dict)
+    caption: dict = {}  # noqa: RUF012  never changed in place
     values: tuple[tuple[str, object], ...] = ()
     scene: str = ""
 

@@ -1,8 +1,6 @@
 """Scene → picture: in memory, as a file, as a sheet of panels."""
 
 import os
-from dataclasses import replace
-from itertools import chain
 from typing import NamedTuple
 
 from . import files, image, scenefile, settings, sheet
@@ -54,7 +52,7 @@ def capture(scene, path=None, renderer=None, lang="en", progress=None):
         size, pixels, broken = _sheet(scene, renderer, lang, progress)
     else:
         size, pixels, broken = _drawn(scene, renderer)
-    picture = Picture(size, pixels, broken, scene.toml(folder, renderer.digests))
+    picture = Picture(size, pixels, broken, scene.toml(folder))
     if path:
         picture.save(path)
     return picture
@@ -75,8 +73,7 @@ def write(scene, path, renderer, lang="en", progress=None):
     strips = renderer.strips(scene, linear=kind != ".png")
     strips = _counting(strips, faults, lambda done: progress and progress(done / total))
     if kind == ".png":
-        strips = chain([next(strips)], strips)  # now the meshes are loaded, their digests known
-        text = scene.toml(os.path.dirname(os.path.abspath(path)), renderer.digests)
+        text = scene.toml(os.path.dirname(os.path.abspath(path)))
         data = image.png(scene.size, strips, [scenefile.chunk(text)])
     else:
         data = image.npy(scene.size, strips) if kind == ".npy" else image.hdr(scene.size, strips)
@@ -121,7 +118,7 @@ def _sheet(scene, renderer, lang, progress, depth=1):
     """Return (size, pixels, broken pixels) of a scene with panels."""
     cells, broken = [], 0
     for i, panel in enumerate(scene.panels):
-        one = Scene.load(panel.scene) if panel.scene else replace(scene, panels=(), title={})
+        one = Scene.load(panel.scene) if panel.scene else scene._replace(panels=(), title={})
         one = settings.all_changed(one, panel.values)
         if one.panels and depth == DEPTH:
             raise Mistake(f"{panel.scene}: sheets within sheets; allowed: {depth} levels")

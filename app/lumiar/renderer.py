@@ -9,6 +9,7 @@ import moderngl
 
 from . import camera, compose, driverlog, geometry, layout
 from .errors import Mistake, one_line
+from .parameter import TINT
 
 STRIP = 1 << 23  # samples drawn at a time: bounds the memory (180 MB) and the longest wait
 INSTALL = "install a driver: on Debian or Ubuntu `apt install libegl1 libgl1-mesa-dri`"
@@ -57,7 +58,7 @@ class Renderer:
     def release(self):
         """Free everything on the graphics card."""
         with self.context:
-            buffers = [b for _, _, *three in self._meshes.values() for b in three if b]
+            buffers = [b for _, *three in self._meshes.values() for b in three if b]
             for made in (*self._arrays.values(), *self._programs.values(), *buffers):
                 made.release()
             self._release_targets()
@@ -68,11 +69,6 @@ class Renderer:
     def name(self):
         """The renderer and the version of its driver, as the driver tells them."""
         return f"{self.context.info['GL_RENDERER']}, OpenGL {self.context.info['GL_VERSION']}"
-
-    @property
-    def digests(self):
-        """The SHA-256 of each mesh file in use, {path: digest}."""
-        return {mesh: digest for (mesh, *_), (_, digest, *_) in self._meshes.items() if digest}
 
     def strips(self, scene, linear=False):
         """Yield the picture of a scene as strips of rows, top first: (bytes, broken pixels).
@@ -93,14 +89,18 @@ class Renderer:
     def _strip(self, scene, linear, side, rows, top):
         width, height = scene.size
         count = min(rows, height - top)
-        below = height - top - count
         radiance, picture = self._target(width, rows, side, linear)
-        radiance.viewport = (0, -below * side, width * side, height * side)
+        radiance.viewport = (0, -top * side, width * side, height * side)
         self.draw(scene, radiance)
-        self.present(scene, radiance, picture, count, linear)
-        area, dtype = (0, 0, width, count), "f4" if linear else "f1"
-        flags = picture.read(area, 1, attachment=1)
-        return picture.read(area, 3, dtype=dtype), len(flags) - flags.count(b"\0")
+        self.present(scene, radiance, picture, linear)
+        area, dtype, step = (0, 0, width, count), *(("f4", 16) if linear else ("f1", 4))
+        pixels = picture.read(area, 3, dtype=dtype)
+        if (
+            not linear and b"\xff\0\xff" not in pixels
+        ):  # no magenta anywhere, which is quick to tell
+            return pixels, 0
+        finite = picture.read(area, 4, dtype=dtype)[step - 1 :: step]  # the top byte of alpha
+        return pixels, finite.count(b"\0")
 
     def draw(self, scene, framebuffer):
         """Draw the linear radiance of a scene into a framebuffer with a depth buffer."""
@@ -115,13 +115,16 @@ class Renderer:
             self.context.front_face = job.winding
             job.array.render()
 
-    def present(self, scene, radiance, picture, rows, linear=False):
-        """Turn `rows` rows of radiance into pixels: mean of the samples, exposure, tone, sRGB."""
-        side = math.isqrt(scene.samples)
-        target = "linear" if linear else "display"
-        array = self._screen("present", {"side": side, "tone": scene.tone, "target": target})
-        array.program["rig_rows"].value = rows
-        if not linear:
+    def present(self, scene, radiance, picture, linear=False):
+        """Turn drawn radiance into pixels: mean of the samples, exposure, tone curve, sRGB."""
+        constants = {
+            "side": math.isqrt(scene.samples),
+            "target": "linear" if linear else "display",
+            "tone": scene.tone,
+            "exposed": scene.exposure != 0.0 and not linear,
+        }
+        array = self._screen("present", constants)
+        if "rig_exposure" in array.program:
             array.program["rig_exposure"].value = 2.0**scene.exposure
         radiance.color_attachments[0].use(0)
         picture.use()
@@ -150,7 +153,7 @@ class Renderer:
             values.update(_uniforms(light.kind, light.values, scene, f"_{i}"))
         members = ((program.get(name, None), value) for name, value in values.items())
         uniforms = tuple((member, value) for member, value in members if member is not None)
-        winding = "cw" if camera.mirrors(placed.world) else "ccw"
+        winding = "ccw" if camera.mirrors(placed.world) else "cw"  # y points down in clip space
         return _Job(self._array(program, entry), placed.closed, winding, uniforms)
 
     def _program(self, scene, placed):
@@ -179,26 +182,26 @@ class Renderer:
             raise Mistake(f"{where}the driver does not compile this: {message}") from None
 
     def _mesh(self, one):
-        """Return (Geometry, digest, vertex, tangent and index buffer) of an object's mesh."""
+        """Return (Geometry, vertex, tangent and index buffer) of an object's mesh."""
         tangents = "tangent" in one.model.needs
         key = (one.mesh, one.crease, tangents)
         if key not in self._meshes:
-            mesh, digest = geometry.load(one.mesh, crease=one.crease, tangents=tangents)
+            mesh = geometry.load(one.mesh, crease=one.crease, tangents=tangents)
             buffers = (mesh.vertices, mesh.tangents, mesh.indices)
             made = (self.context.buffer(b) if len(b) else None for b in buffers)
-            self._meshes[key] = (mesh, digest, *made)
+            self._meshes[key] = (mesh, *made)
         return self._meshes[key]
 
     def _array(self, program, entry):
         """Return the vertex array that feeds a mesh to a program, without what it does not take."""
-        key = (program, entry[2])
+        key = (program, entry[1])
         if key not in self._arrays:
             names = ("rig_vertex", "rig_vertex_normal")
             form = " ".join("3f" if name in program else "12x" for name in names)
-            content = [(entry[2], form, *(name for name in names if name in program))]
+            content = [(entry[1], form, *(name for name in names if name in program))]
             if "rig_vertex_tangent" in program:
-                content.append((entry[3], "4f", "rig_vertex_tangent"))
-            self._arrays[key] = self.context.vertex_array(program, content, entry[4])
+                content.append((entry[2], "4f", "rig_vertex_tangent"))
+            self._arrays[key] = self.context.vertex_array(program, content, entry[3])
         return self._arrays[key]
 
     def _target(self, width, rows, side, linear):
@@ -210,7 +213,7 @@ class Renderer:
             radiance = [context.texture(size, 4, dtype="f4")]
             radiance = context.framebuffer(radiance, context.depth_renderbuffer(size))
             pixels = context.texture((width, rows), 4, dtype="f4" if linear else "f1")
-            picture = context.framebuffer([pixels, context.texture((width, rows), 1)])
+            picture = context.framebuffer([pixels])
             if context.error != "GL_NO_ERROR":
                 raise Mistake(f"the driver has no memory for {width} x {rows} pixels; draw smaller")
             self._targets[key] = (radiance, picture)
@@ -254,6 +257,8 @@ def _uniforms(shader, values, scene, suffix):
         if parameter.widget == "direction":
             length = math.hypot(*value)
             value = [v / length for v in value]
+        if parameter.tinted:
+            value = [value * channel for channel in values[TINT]]
         numbers = value if isinstance(value, (tuple, list)) else (value,)
         form = "i" if parameter.type == "int" else "f"
         packed[parameter.name + suffix] = struct.pack(f"{len(numbers)}{form}", *numbers)

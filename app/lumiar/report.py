@@ -91,7 +91,7 @@ def _parameter(p):
 
 
 def _mesh(name):
-    mesh, _ = geometry.load(name)
+    mesh = geometry.load(name)
     return {
         "name": name,
         "kind": "mesh",

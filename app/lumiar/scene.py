@@ -1,7 +1,7 @@
 """All that determines one image."""
 
 import os
-from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from . import catalog, geometry, scenefile, settings
 from .errors import Mistake, nearest
@@ -11,8 +11,7 @@ from .parts import Camera, Light, Object, Panel
 PICTURE_LIMIT = 1 << 30  # bytes of a picture that may carry a scene
 
 
-@dataclass(frozen=True)
-class Scene:
+class Scene(NamedTuple):
     """All that determines one image, or, with panels, one sheet of images.
 
     Domains and units of the values stand in `parts.SCENE`; title maps a language to a line.
@@ -20,7 +19,7 @@ class Scene:
 
     objects: tuple[Object, ...]
     lights: tuple[Light, ...]
-    camera: Camera = field(default_factory=Camera)
+    camera: Camera = Camera()
     size: tuple[int, int] = (768, 768)
     samples: int = 4
     shading: str = "phong"
@@ -28,7 +27,7 @@ class Scene:
     exposure: float = 0.0
     tone: str = "none"
     time: float = 0.0
-    title: dict = field(default_factory=dict)
+    title: dict = {}  # noqa: RUF012  never changed in place
     columns: int = 0
     panels: tuple[Panel, ...] = ()
 
@@ -75,6 +74,6 @@ class Scene:
         pairs = [(key.replace("__", "."), value) for key, value in values.items()]
         return settings.all_changed(self, pairs)
 
-    def toml(self, folder="", digests=None):
+    def toml(self, folder=""):
         """Return the scene as TOML text for a file in `folder`; see `scenefile.dump`."""
-        return scenefile.dump(self, folder or os.getcwd(), digests)
+        return scenefile.dump(self, folder or os.getcwd())

@@ -1,12 +1,10 @@
 """Scenes as TOML text, in files of their own and inside the pictures that Lumiar makes."""
 
 import os
-import re
-from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
 
-from . import cache, catalog, geometry, settings, tomltext
+from . import catalog, geometry, settings, tomltext
 from .errors import Mistake, nearest
 from .files import ASSETS, read_bytes
 from .parts import CAMERA, OBJECT, SCENE, Camera, Light, Object, Panel
@@ -69,19 +67,17 @@ def parse(text, path, base):
             raise Mistake(f"{file.at('object')}a scene needs an object; write [[object]]")
     if "light" in data:
         given["lights"] = tuple(_light(file, i, one) for i, one in enumerate(data["light"]))
-    scene = replace(base, **given)
+    scene = base._replace(**given)
     panels = (_panel(file, i, one, scene) for i, one in enumerate(data.get("panel", ())))
-    return replace(scene, panels=tuple(panels))
+    return scene._replace(panels=tuple(panels))
 
 
-def dump(scene, folder, digests=None):
+def dump(scene, folder):
     """Return the TOML text of a Scene, complete, with paths relative to `folder` where inside it.
 
     A file elsewhere is written with its full path, and its SHA-256 under [content]: only a scene
-    that knows what is in a file may open it there. digests maps paths to digests already known.
+    that knows what is in a file may open it there.
     """
-    import tomli_w
-
     content = {}
 
     def written(name, kind):
@@ -89,7 +85,7 @@ def dump(scene, folder, digests=None):
             return name
         if _inside(name, folder):
             return os.path.relpath(os.path.realpath(name), os.path.realpath(folder))
-        content[name] = (digests or {}).get(name) or _digest(name, kind)
+        content[name] = _digest(name, kind)
         return name
 
     def setting(key, value):
@@ -122,8 +118,7 @@ def dump(scene, folder, digests=None):
         for panel in scene.panels
     ]
     data["content"] = content
-    text = tomli_w.dumps(_without_empty(data))
-    return re.sub(r"\[\n((?:    [^\n]*,\n)+)\]", _on_one_line, text)
+    return tomltext.dumps(data)
 
 
 def embedded(data, path):
@@ -252,19 +247,9 @@ def _inside(path, folder):
 
 
 def _digest(path, kind):
-    if kind == "mesh":
-        data = read_bytes(path, geometry.FILE_LIMIT, "a mesh file")
-        return geometry.content_digest(path, data)
-    return cache.digest(read_bytes(path, LIMIT, "a text file"))
+    """Return the SHA-256, in hexadecimal, of what a file and the buffers it names hold."""
+    import hashlib
 
-
-def _on_one_line(found):
-    return f"[{' '.join(line.strip() for line in found.group(1).splitlines())[:-1]}]"
-
-
-def _without_empty(data):
-    """Return nested data without what is None, or empty: its absence says the same."""
-    if isinstance(data, dict):
-        pairs = ((key, _without_empty(value)) for key, value in data.items())
-        return {key: value for key, value in pairs if value not in (None, "", {}, [])}
-    return [_without_empty(value) for value in data] if isinstance(data, list) else data
+    limit = geometry.FILE_LIMIT if kind == "mesh" else LIMIT
+    data = read_bytes(path, limit, f"a {kind}")
+    return hashlib.sha256(b"".join(geometry.file_parts(path, data))).hexdigest()

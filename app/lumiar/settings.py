@@ -1,7 +1,6 @@
 """Changing one value of a scene by its name, as `--set`, `--vary`, panels and the window do."""
 
 import math
-from dataclasses import replace
 
 from . import catalog, geometry
 from .errors import Mistake, nearest
@@ -22,13 +21,13 @@ def changed(scene, key, value, where="", folder=""):
     Raises Mistake, its line beginning with `where`, naming what is allowed.
     """
     if key in SCENE:
-        return replace(scene, **{key: scene_value(key, _typed(SCENE[key], value, where), where)})
+        return scene._replace(**{key: scene_value(key, _typed(SCENE[key], value, where), where)})
     first, _, rest = key.partition(".")
     if first == "camera" and rest in CAMERA:
         value = CAMERA[rest].check(_typed(CAMERA[rest], value, where), where)
-        return replace(scene, camera=replace(scene.camera, **{rest: value}))
+        return scene._replace(camera=scene.camera._replace(**{rest: value}))
     if key == "light":
-        return replace(scene, lights=(light(str(value), where, folder),))
+        return scene._replace(lights=(light(str(value), where, folder),))
     objects, lights, rest = _addressed(scene, key)
     in_objects = [i for i in objects if _takes(scene.objects[i], rest)]
     in_lights = [i for i in lights if rest in scene.lights[i].values and not in_objects]
@@ -39,7 +38,7 @@ def changed(scene, key, value, where="", folder=""):
         changed_objects[i] = _object_with(scene.objects[i], rest, value, where, folder)
     for i in in_lights:
         changed_lights[i] = _light_with(scene.lights[i], rest, value, where)
-    return replace(scene, objects=tuple(changed_objects), lights=tuple(changed_lights))
+    return scene._replace(objects=tuple(changed_objects), lights=tuple(changed_lights))
 
 
 def all_changed(scene, pairs, where="", folder=""):
@@ -118,15 +117,15 @@ def _takes(one, key):
 
 def _object_with(one, key, value, where, folder):
     if key == "mesh":
-        return replace(one, mesh=geometry.canonical(str(value), folder, where))
+        return one._replace(mesh=geometry.canonical(str(value), folder, where))
     if key == "model":
         return _with_model(one, catalog.read("model", str(value), where, folder))
     if key in OBJECT:
         value = object_value(key, _typed(OBJECT[key], value, where), where)
-        return replace(one, **{key: value})
+        return one._replace(**{key: value})
     parameter = one.model.parameter(key, where)
     value = parameter.check(_typed(parameter, value, where), where)
-    return replace(one, values={**one.values, key: value})
+    return one._replace(values={**one.values, key: value})
 
 
 def _with_model(one, model):
@@ -138,13 +137,13 @@ def _with_model(one, model):
                 values[key] = model.parameter(key).check(value)
             except Mistake:
                 continue  # the other model's domain does not hold it: its own default stays
-    return replace(one, model=model, values=values)
+    return one._replace(model=model, values=values)
 
 
 def _light_with(one, key, value, where):
     parameter = one.kind.parameter(key, where)
     value = parameter.check(_typed(parameter, value, where), where)
-    return replace(one, values={**one.values, key: value})
+    return one._replace(values={**one.values, key: value})
 
 
 def _typed(parameter, value, where):

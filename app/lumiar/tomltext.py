@@ -1,4 +1,4 @@
-"""TOML text as data, and the line on which each of its keys stands (tomllib does not tell)."""
+"""TOML text as data and back, and the line on which each key stands (tomllib does not tell)."""
 
 import re
 from typing import NamedTuple
@@ -53,3 +53,51 @@ def parse(text, path):
         raise Mistake(f"{path}:{line}: not TOML: {reason}") from None
     except (RecursionError, ValueError) as error:
         raise Mistake(f"{path}:1: not TOML that can be read: {error}") from None
+
+
+def dumps(data):
+    """Return nested data as TOML text; what is None or empty is left out.
+
+    Values are bool, int, float, str, sequences, and tables {key: value} of them; a table at the top
+    becomes a section, a list of tables a section for each. (Arrays stand on one line, and reading
+    tomli-w takes longer than writing a scene with this.)
+    """
+    lines = [f"{_key(k)} = {_value(v)}" for k, v in data.items() if _is_plain(v) and _says(v)]
+    for name, value in data.items():
+        tables = [value] if isinstance(value, dict) else [] if _is_plain(value) else value
+        for table in tables:
+            if isinstance(value, list) or _says(table):
+                header = f"[[{_key(name)}]]" if isinstance(value, list) else f"[{_key(name)}]"
+                lines += ["", header]
+                lines += [f"{_key(k)} = {_value(v)}" for k, v in table.items() if _says(v)]
+    return "\n".join(lines).lstrip("\n") + "\n"
+
+
+def _is_plain(value):
+    listed = isinstance(value, list) and any(isinstance(entry, dict) for entry in value)
+    return not listed and not isinstance(value, dict)
+
+
+def _says(value):
+    return value is not None and not (isinstance(value, (str, dict, list, tuple)) and not value)
+
+
+def _value(value):
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return _quoted(value)
+    if isinstance(value, (list, tuple)):
+        return f"[{', '.join(map(_value, value))}]"
+    if isinstance(value, dict):
+        return f"{{ {', '.join(f'{_key(k)} = {_value(v)}' for k, v in value.items())} }}"
+    return repr(value)
+
+
+def _key(name):
+    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else _quoted(name)
+
+
+def _quoted(text):
+    inner = re.sub(r'[\x00-\x1f\x7f"\\]', lambda found: f"\\u{ord(found.group()):04x}", text)
+    return f'"{inner}"'

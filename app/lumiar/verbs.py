@@ -44,7 +44,7 @@ def source(options):
     scene = given.scene(options)
     if not 1 <= options.object <= len(scene.objects):
         raise Mistake(f"--object {options.object}: allowed: 1 to {len(scene.objects)}")
-    meshes = [geometry.load(one.mesh, crease=one.crease)[0] for one in scene.objects]
+    meshes = [geometry.load(one.mesh, crease=one.crease) for one in scene.objects]
     placed = layout.arrange(scene, meshes)[options.object - 1]
     for stage, text in layout.sources(scene, placed).items():
         print(f"// ======== {stage} stage ========")

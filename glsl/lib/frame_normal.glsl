@@ -11,6 +11,6 @@ vec3 to_local(vec3 w, Frame frame) {
     vec3 N = frame.N;
     float side = N.z < 0.0 ? -1.0 : 1.0;
     float along = dot(N.xy, w.xy);
-    float k = along / -(side + N.z) - w.z;
+    float k = along * (-1.0 / (side + N.z)) - w.z;  // the quotient is the same for every w
     return vec3(w.x + side * N.x * k, side * w.y + N.y * k, along + N.z * w.z);
 }

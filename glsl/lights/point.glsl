@@ -2,11 +2,10 @@
 #include "lib/light.glsl"
 
 uniform vec3 position = vec3(2.0, 3.0, 4.0);  // [.. -10, 10 ..]: where it stands (m)
-uniform vec3 color = vec3(1.0);               // color: colour of the light (unitless)
-uniform float intensity = 60.0;               // [0, 500 ..]: I, radiant intensity (W/sr)
+uniform vec3 intensity = vec3(60.0);          // [0, 500 ..] tinted: I, radiant intensity (W/sr)
 
 Incident light(vec3 place, vec2 u) {
     vec3 toward = position - place;
     float square = max(dot(toward, toward), 1e-12);  // a micrometre: a point on the light itself
-    return Incident(toward * inversesqrt(square), intensity / square * color);
+    return Incident(toward * inversesqrt(square), intensity / square);
 }

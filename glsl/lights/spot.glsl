@@ -4,8 +4,7 @@
 
 uniform vec3 position = vec3(2.0, 3.0, 4.0);  // [.. -10, 10 ..]: where it stands (m)
 uniform vec3 target = vec3(0.0);              // [.. -10, 10 ..]: where it points (m)
-uniform vec3 color = vec3(1.0);               // color: colour of the light (unitless)
-uniform float intensity = 60.0;               // [0, 500 ..]: I on the axis, radiant intensity (W/sr)
+uniform vec3 intensity = vec3(60.0);          // [0, 500 ..] tinted: I on its axis (W/sr)
 uniform float inner = radians(10.0);          // [0, 90] degrees: half-angle of the full-strength cone
 uniform float outer = radians(20.0);          // [0, 90] degrees: half-angle beyond which it is dark
 
@@ -16,5 +15,5 @@ Incident light(vec3 place, vec2 u) {
     vec3 axis = normalize(position - target);
     float edge = cos(outer), width = max(cos(inner) - edge, 1e-4);  // inner = outer: a sharp edge
     float t = clamp((dot(L, axis) - edge) / width, 0.0, 1.0);
-    return Incident(L, intensity / square * t * t * (3.0 - 2.0 * t) * color);
+    return Incident(L, intensity * (t * t * (3.0 - 2.0 * t) / square));
 }

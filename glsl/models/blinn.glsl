@@ -21,14 +21,14 @@ vec3 scatter(vec3 L, vec3 V) {
     if (L.z <= 0.0) return vec3(0.0);
     vec3 value = vec3(0.0);
     if (diffuse) value += kd * L.z;
-    vec3 H = L + V;
-    if (specular && H.z > 0.0) {  // H.z <= 0: the eye is below the surface, and H may vanish
-        float h = length(H);
-        float lobe = cos_power(dot(H.xy, H.xy) / (h * (h + H.z)), shininess);
+    if (specular) {
+        vec3 H = L + V;  // vanishes for L = -V, with the eye below the surface
+        vec3 d = vec3(0.0, 0.0, 1.0) - H * inversesqrt(max(dot(H, H), 1e-12));
+        float lobe = cos_power(0.5 * dot(d, d), shininess);  // 1 - cos(phi) = d.d / 2
         float scale = (shininess + 2.0) * (shininess + 4.0) / (8.0 * (exp2(-0.5 * shininess) + shininess));
         value += form == FORM_SLIDE ? ks * lobe : ks * (scale * lobe * L.z);
     }
-    return value / PI;
+    return value * INV_PI;
 }
 
 vec3 surround(vec3 V) {

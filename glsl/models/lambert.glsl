@@ -8,7 +8,7 @@ uniform vec3 albedo = vec3(0.8);  // color: rho, the share of the light that is 
 uniform int form = 0;             // {normalised, slide}: f = rho / pi, or f = k_d as on the slide
 
 vec3 scatter(vec3 L, vec3 V) {
-    float f = form == FORM_SLIDE ? 1.0 : 1.0 / PI;
+    float f = form == FORM_SLIDE ? 1.0 : INV_PI;
     return albedo * f * max(L.z, 0.0);
 }
 

@@ -25,7 +25,7 @@ vec3 scatter(vec3 L, vec3 V) {
         float lobe = cos_power(0.5 * dot(d, d), shininess);
         value += form == FORM_SLIDE ? ks * lobe : ks * (0.5 * (shininess + 2.0) * lobe * L.z);
     }
-    return value / PI;
+    return value * INV_PI;
 }
 
 vec3 surround(vec3 V) {

@@ -66,10 +66,11 @@ def _siblings(path):
     def fetch(relative):
         try:
             target = os.path.realpath(os.path.join(folder, relative))
-        except ValueError:
-            raise check.mistake(relative, "not a possible path; correct it") from None
-        if os.path.commonpath((folder, target)) != folder:
-            raise check.mistake(relative, "outside the folder of the file; put it beside the file")
+            beside = os.path.commonpath((folder, target)) == folder
+        except ValueError:  # a lone surrogate, or another drive
+            beside = False
+        if not beside:
+            raise check.mistake(relative, "not in the folder of the file; put it beside the file")
         if target not in fetched:
             left = LARGEST - sum(map(len, fetched.values()))
             fetched[target] = _load(target, relative, left)

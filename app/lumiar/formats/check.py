@@ -5,7 +5,7 @@ import numpy as np
 from lumiar.errors import Mistake, one_line
 from lumiar.mesh import Polygons
 
-MOST_VERTICES = 20_000_000  # with MOST_CORNERS, keeps a refused file under 1.5 GB of memory
+MOST_VERTICES = 10_000_000  # with MOST_CORNERS, keeps a refused file under 1.5 GB of memory
 MOST_CORNERS = 50_000_000
 NO_FACES = "no faces; a point cloud, lines or curves cannot be lit: write faces too"
 FARTHEST = 1e18  # squares of float32 numbers beyond this overflow
@@ -28,9 +28,15 @@ def limit(name, vertices=0, corners=0):
             raise mistake(name, f"{count} {what}, but at most {most} are read; simplify the mesh")
 
 
+def float64(values):
+    """Return `values` as float64; a signalling NaN, which some exporters leave, is quiet too."""
+    with np.errstate(invalid="ignore"):
+        return values.astype(np.float64)
+
+
 def near(values):
     """Return True for each row of `values` that is finite and safe in float32 arithmetic."""
-    return (np.abs(values) <= FARTHEST).all(axis=1)
+    return ((values >= -FARTHEST) & (values <= FARTHEST)).all(axis=1)
 
 
 def all_near(values):
@@ -53,10 +59,10 @@ def polygons(
 ):
     """Return the Polygons of these arrays after checking all that a reader must promise.
 
-    The arrays are as in Polygons. For the errors, the file counts from `first`, and
-    `line_of("vertex" or "face", index)` is a line. Raises a Mistake for no polygon, a polygon of
-    fewer than 3 corners, an index out of range, or a used position that is not finite. Unused
-    positions and values at corners that are not finite are repaired and noted.
+    The arrays are as in Polygons, but whole numbers may be of any type. For the errors, the file
+    counts from `first`, and `line_of("vertex" or "face", index)` is a line. Raises a Mistake for
+    no polygon, a polygon of fewer than 3 corners, an index out of range, or a used position that
+    is not finite. Other values that are not finite are repaired and noted.
     """
     notes = list(notes)
     if len(sizes) == 0:
@@ -72,14 +78,18 @@ def polygons(
         ("texture coordinate", uvs, uv_of, -1),
     ):
         if index is not None and (index.min() < lowest or index.max() >= len(values)):
-            corner = int(np.argmax((index < lowest) | (index >= len(values))))
+            beyond = index >= len(values) if index.max() >= len(values) else index < lowest
+            corner = int(np.argmax(beyond))
             face = int(np.searchsorted(np.cumsum(sizes), corner, side="right"))
-            what = f"face {face + first} uses {what} {index[corner] + first}"
-            what += f" of {len(values)}; write {first} to {len(values) - 1 + first}"
-            raise mistake(name, what, line_of("face", face))
+            what = f"face {face + first} uses {what} {index[corner] + first} of {len(values)}"
+            advice = (
+                f"write {first} to {len(values) - 1 + first}" if len(values) else "write it too"
+            )
+            raise mistake(name, f"{what}; {advice}", line_of("face", face))
     positions = _used(name, positions, corners, notes, first, line_of)
     normals, normal_of = _finite("normals", normals, normal_of, notes)
     uvs, uv_of = _finite("texture coordinates", uvs, uv_of, notes)
+    corners, sizes = corners.astype(np.int64), sizes.astype(np.int64)
     return Polygons(positions, corners, sizes, normals, normal_of, uvs, uv_of, tuple(notes))
 
 
@@ -100,12 +110,12 @@ def _used(name, positions, corners, notes, first, line_of):
 
 
 def _finite(what, values, value_of, notes):
-    """Return values and their indices, -1 where a value is not finite; None and None for none."""
-    if values is None or value_of.max() < 0:
+    """Return values and their indices, -1 where a value is not finite; None and None if none is."""
+    if value_of is None:
         return None, None
-    bad = ~near(values)
+    value_of, bad = value_of.astype(np.int64), ~near(values)
     if bad.any():
         notes.append(f"{bad.sum()} {what} are not finite: left out")
         values = np.where(bad[:, None], 0.0, values)
         value_of = np.where((value_of >= 0) & bad[value_of], -1, value_of)
-    return values, value_of
+    return (values, value_of) if value_of.max() >= 0 else (None, None)

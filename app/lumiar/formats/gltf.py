@@ -54,6 +54,7 @@ def _chunks(data, name, notes):
     if length > len(data) or 20 + size > length:
         what = f"cut off: {len(data)} bytes of {max(length, 20 + size)}; export the file again"
         raise check.mistake(name, what)
+    _check_size(size, name)
     if kind != _JSON:
         raise check.mistake(name, "the first chunk is not JSON (byte 16); export the file again")
     if length < len(data):
@@ -63,10 +64,16 @@ def _chunks(data, name, notes):
         size, kind = struct.unpack_from("<2I", data, at)
         if at + 8 + size > length:
             what = f"the chunk at byte {at} has {length - at - 8} bytes of {size}: cut off"
-            raise check.mistake(name, what)
+            raise check.mistake(name, f"{what}; export the file again")
         if kind == _BIN:
             blob = memoryview(data)[at + 8 : at + 8 + size]
     return raw.rstrip(b"\0"), blob
+
+
+def _check_size(size, name):
+    if size > _LARGEST_JSON:
+        what = f"{size >> 20} MiB of JSON, but at most {_LARGEST_JSON >> 20} are read"
+        raise check.mistake(name, f"{what}; export as .glb, with a binary buffer")
 
 
 def _document(raw, name, notes, binary):
@@ -77,9 +84,7 @@ def _document(raw, name, notes, binary):
             return check.mistake(name, f"JSON chunk, line {text.line(raw, at)}: {what}")
         return text.fail(name, raw, at, what)
 
-    if len(raw) > _LARGEST_JSON:
-        what = f"{len(raw) >> 20} MiB of JSON, but 64 are read; export as .glb"
-        raise check.mistake(name, what)
+    _check_size(len(raw), name)
     if raw.count(b"{") + raw.count(b"[") > _MOST_OBJECTS:
         raise check.mistake(name, f"over {_MOST_OBJECTS} JSON objects and lists; simplify the file")
     mark = raw.startswith(b"\xef\xbb\xbf")
@@ -87,7 +92,7 @@ def _document(raw, name, notes, binary):
         notes.append("byte-order mark skipped")
     try:
         spelled = raw[3 * mark :].decode("utf-8")
-        document = json.loads(spelled, parse_constant=int, object_pairs_hook=_object)
+        document = json.loads(spelled, parse_constant=_refuse, object_pairs_hook=_object)
     except UnicodeDecodeError as error:
         raise fail(3 * mark + error.start, "not UTF-8 text; export the file again") from None
     except json.JSONDecodeError as error:
@@ -97,13 +102,17 @@ def _document(raw, name, notes, binary):
         raise fail(0, "JSON nested too deeply; export the file again") from None
     except Mistake as mistake:
         raise check.mistake(name, str(mistake)) from None
-    except ValueError:  # of int(): for NaN and Infinity, and for thousands of digits
+    except ValueError:  # _refuse, or Python's own of a number of thousands of digits
         odd = re.search(rb"(?<![\w\"])(?:-?Infinity|NaN|-?\d{4300})", raw)
         what = "JSON: NaN, Infinity or thousands of digits; write a finite number"
         raise fail(odd.start() if odd else 0, what) from None
     if not isinstance(document, dict):
         raise fail(0, "JSON, but no object {...}; export the file again")
     return document
+
+
+def _refuse(constant):
+    raise ValueError(constant)
 
 
 def _object(pairs):

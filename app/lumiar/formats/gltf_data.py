@@ -42,7 +42,7 @@ def whole(parent, key, where, default=None):
     """Return the whole number parent[key] from 0 to 2^53, or the default."""
     value = parent.get(key, default)
     if type(value) is not int or not 0 <= value <= 2**53:
-        raise Mistake(f"{where}: {key} {_shown(parent, key)}; write a whole number from 0")
+        raise Mistake(f"{where}: {key} {shown(parent, key)}; write a whole number from 0")
     return value
 
 
@@ -51,7 +51,7 @@ def listed(parent, key, where, kind=dict):
     values = parent.get(key, [])
     if not isinstance(values, list) or not all(type(value) is kind for value in values):
         names = {dict: "objects", int: "whole numbers", str: "strings"}
-        raise Mistake(f"{where}: {key} {_shown(parent, key)}; write a list of {names[kind]}")
+        raise Mistake(f"{where}: {key} {shown(parent, key)}; write a list of {names[kind]}")
     return values
 
 
@@ -59,7 +59,7 @@ def child(parent, key, where):
     """Return the object parent[key], or an empty one."""
     value = parent.get(key, {})
     if not isinstance(value, dict):
-        raise Mistake(f"{where}: {key} {_shown(parent, key)}; write an object {{...}}")
+        raise Mistake(f"{where}: {key} {shown(parent, key)}; write an object {{...}}")
     return value
 
 
@@ -79,11 +79,12 @@ def numbers(parent, key, size, where, default=None):
     values = parent.get(key, default)
     good = isinstance(values, list) and len(values) == size
     if not good or not all(type(v) in (int, float) and abs(v) < 1e300 for v in values):
-        raise Mistake(f"{where}: {key} {_shown(parent, key)}; write {size} finite numbers")
+        raise Mistake(f"{where}: {key} {shown(parent, key)}; write {size} finite numbers")
     return [float(value) for value in values]
 
 
-def _shown(parent, key):
+def shown(parent, key):
+    """Return "is ..." with the value of parent[key] in brief, or "is missing"."""
     value = parent.get(key)
     if isinstance(value, dict | list):
         return "is an object" if isinstance(value, dict) else f"is a list of {len(value)}"
@@ -107,21 +108,20 @@ def buffers(document, blob, fetch):
                 raise Mistake(f"{where} has no uri; export the file again, without compression")
             data = blob
         elif not isinstance(uri, str):
-            raise Mistake(f"{where}: uri {_shown(spec, 'uri')}; write a string")
+            raise Mistake(f"{where}: uri {shown(spec, 'uri')}; write a string")
         elif uri[:5].lower() == "data:":
             data = _embedded(uri, where)
         else:
             path = _relative(uri, where)
             if fetch is None:
-                raise Mistake(
-                    f"{where} is in another file, '{path[:60]}'; give the path of this one"
-                )
+                raise Mistake(f"{where} is the file '{path[:60]}'; put it beside this one")
             try:
                 data = fetch(path)
             except Mistake as mistake:
                 raise Mistake(f"{where}: {mistake}") from None
         if len(data) < length:
-            raise Mistake(f"{where} has {len(data)} bytes, but its byteLength is {length}: cut off")
+            what = f"{where} has {len(data)} bytes, but its byteLength is {length}: cut off"
+            raise Mistake(f"{what}; export the file again")
         return memoryview(data)[:length]
 
     return buffer
@@ -163,11 +163,10 @@ def accessors(document, buffer):
             known = ", ".join(map(str, COMPONENTS))
             raise Mistake(f"{where}: componentType is {component}; write one of {known}")
         if not isinstance(kind, str) or kind not in _WIDTHS:
-            raise Mistake(
-                f"{where}: type {_shown(spec, 'type')}; write one of {', '.join(_WIDTHS)}"
-            )
+            known = ", ".join(_WIDTHS)
+            raise Mistake(f"{where}: type {shown(spec, 'type')}; write one of {known}")
         if not isinstance(normalized, bool):
-            raise Mistake(f"{where}: normalized {_shown(spec, 'normalized')}; write true or false")
+            raise Mistake(f"{where}: normalized {shown(spec, 'normalized')}; write true or false")
         code, width, stored = COMPONENTS[component], _WIDTHS[kind], "bufferView" in spec
         count, most = whole(spec, "count", where), check.MOST_CORNERS if stored else _MOST_ZEROS
         if not 1 <= count <= most:
@@ -209,20 +208,20 @@ def _view(document, buffer, spec, count, code, width, where):
     """Return the (count, width) array, without a copy, that `spec` finds in its bufferView."""
     index = whole(spec, "bufferView", where)
     view, label = entry(document, "bufferViews", index, where), f"bufferView {index}"
-    if any(key.endswith("meshopt_compression") for key in child(view, "extensions", label)):
-        raise Mistake(f"{label} is compressed by meshopt; export the file without compression")
     start, length = whole(view, "byteOffset", label, 0), whole(view, "byteLength", label)
     data = buffer(whole(view, "buffer", label))
     if start + length > len(data):
-        raise Mistake(f"{label} ends at byte {start + length} of a buffer of {len(data)} bytes")
+        what = f"{label} ends at byte {start + length} of a buffer of {len(data)} bytes"
+        raise Mistake(f"{what}; export the file again")
     size = np.dtype(code).itemsize
     step = whole(view, "byteStride", label, size * width)
-    if step < size * width:
-        raise Mistake(f"{label}: byteStride is {step}; write at least {size * width}")
+    if not size * width <= step <= 252:  # the most that glTF allows
+        raise Mistake(f"{label}: byteStride is {step}; write {size * width} to 252")
     offset = whole(spec, "byteOffset", where, 0)
     end = offset + step * (count - 1) + size * width
     if end > length:
-        raise Mistake(f"{where}: {count} values end at byte {end} of the {length} of {label}")
+        what = f"{where}: {count} values end at byte {end} of the {length} of {label}"
+        raise Mistake(f"{what}; export the file again")
     return np.ndarray((count, width), code, data, start + offset, (step, size))
 
 
@@ -242,7 +241,7 @@ def take(accessor, rows=None):
 
 def floats(taken, normalized):
     """Return stored values as float64; whole numbers that are normalized become -1 to 1."""
-    values = taken.astype(np.float64)
+    values = check.float64(taken)
     if normalized and taken.dtype.kind != "f":
         values = np.maximum(values / np.iinfo(taken.dtype).max, -1.0)
     return values

@@ -36,11 +36,11 @@ def placed(document):
                 raise Mistake(f"node {i} is in {where} and a child of node {parent[i]}; keep one")
         if len(set(roots)) < len(roots):
             raise Mistake(f"a node is twice in {where}; keep one")
-    placed = [(i, _matrix(nodes[i], f"node {i}")) for i in roots]
+    found = [(i, _matrix(nodes[i], f"node {i}")) for i in roots]
     with np.errstate(all="ignore"):  # what overflows is found in the positions
-        for i, matrix in placed:  # grows too
-            placed += [(c, matrix @ _matrix(nodes[c], f"node {c}")) for c in children[i]]
-    return placed
+        for i, matrix in found:  # grows too
+            found += [(c, matrix @ _matrix(nodes[c], f"node {c}")) for c in children[i]]
+    return found
 
 
 def _matrix(node, where):

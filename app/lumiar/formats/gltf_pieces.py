@@ -37,20 +37,17 @@ def made(drawing, notes):
     """
     position = drawing.attributes["POSITION"]
     corners = _corners(drawing, len(position.values), notes)
-    # vertices that no corner uses are left out, so that many primitives may share a long accessor
-    rows, positions = None, None
-    if len(position.values) <= len(corners):
-        positions = take(position)
-    if positions is None or not check.all_near(positions):
-        every = positions
+    rows = None
+    if len(position.values) > len(corners):  # many primitives may share a long accessor
         rows, corners = np.unique(corners, return_inverse=True)
-        positions = take(position, rows)
-        good = check.near(positions)
-        if not good.all():
-            what = f"{drawing.where}: vertex {rows[np.argmin(good)]} of {position.label}"
-            raise Mistake(what + " is not at finite numbers up to 1e18; repair it")
-        if every is not None:
-            notes.append(f"{(~check.near(every)).sum()} unused vertices are not finite")
+    positions = take(position, rows)
+    if len(corners) and not check.all_near(positions):
+        bad = ~check.near(positions)
+        vertex = corners[np.argmax(bad[corners])]
+        if bad[vertex]:
+            vertex = vertex if rows is None else rows[vertex]
+            what = f"{drawing.where}: vertex {vertex} of {position.label} is not at finite numbers"
+            raise Mistake(f"{what} up to 1e18; repair it")
 
     def per_vertex(key, width):
         if key not in drawing.attributes:

@@ -7,7 +7,16 @@ import re
 
 from lumiar.errors import Mistake
 from lumiar.formats import check, gltf_nodes
-from lumiar.formats.gltf_data import INDEX_CODES, accessors, buffers, child, entry, listed, whole
+from lumiar.formats.gltf_data import (
+    INDEX_CODES,
+    accessors,
+    buffers,
+    child,
+    entry,
+    listed,
+    shown,
+    whole,
+)
 from lumiar.formats.gltf_pieces import Drawing, joined, made, placed
 
 _HARMLESS = re.compile(  # may be required: they leave the shape alone, or are read
@@ -33,6 +42,8 @@ def read(document, blob, fetch, notes):
         if "skin" in spec:
             notes.append("skeletons are not used: a mesh with a skin is drawn in its bind pose")
         index = whole(spec, "mesh", f"node {node}")
+        if "EXT_mesh_gpu_instancing" in child(spec, "extensions", f"node {node}"):
+            notes.append("EXT_mesh_gpu_instancing is not read: such a mesh is drawn once")
         drawn.append((index, matrix))
         if index not in drawings:
             mesh, where = entry(document, "meshes", index, f"node {node}"), f"mesh {index}"
@@ -59,10 +70,9 @@ def _check_asset(document):
     asset = child(document, "asset", "the file")
     for key in ("version", "minVersion"):
         version = asset.get(key, "2.0" if key == "minVersion" else None)
-        if not isinstance(version, str) or not re.fullmatch(r"2\.\d+", version):
-            raise Mistake(f"asset.{key} is {str(version)[:20]}, not 2.0; export it as glTF 2.0")
-    if asset.get("minVersion", "2.0") != "2.0":
-        raise Mistake(f"asset.minVersion is {asset['minVersion']}; export it as glTF 2.0")
+        allowed = r"2\.\d+" if key == "version" else r"2\.0"
+        if not isinstance(version, str) or not re.fullmatch(allowed, version):
+            raise Mistake(f"asset.{key} {shown(asset, key)}; export it as glTF 2.0")
     required = listed(document, "extensionsRequired", "the file", str)
     for extension in required:
         if not _HARMLESS.fullmatch(extension):

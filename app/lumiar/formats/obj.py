@@ -35,9 +35,10 @@ def read(data, name):
     """
     start, notes = text.opening(data, name)
     total = dict.fromkeys(_VECTORS, 0)
-    vectors = {kind: [np.empty((0, _WIDTH[kind]))] for kind in _VECTORS}
-    indices = {kind: [np.empty(0, np.int32)] for kind in _VECTORS}
-    sizes, vertex_at, face_at = ([np.empty(0, np.int32)] for _ in range(3))
+    # bytes that grow need half the memory of many small arrays, joined in the end
+    vectors = {kind: bytearray() for kind in _VECTORS}
+    indices = {kind: bytearray() for kind in _VECTORS}
+    sizes, vertex_at, face_at = bytearray(), bytearray(), bytearray()
     for at, buffer in text.blocks(data, name, start, comments=True, continued=True):
         starts, stops, first, count = text.words(buffer)
         if len(first) == 0:
@@ -61,32 +62,42 @@ def read(data, name):
         if is_face.any():
             only = text.only(buffer, of_byte == _F)
             corners = _corners(only, kind, words[is_face], total, name, data, at)
-            for k in _VECTORS:
-                indices[k].append(corners[k])
-            sizes.append(words[is_face].astype(np.int32))
-            face_at.append((heads[is_face] + at).astype(np.int32))
+            before = len(indices[_V])
+            for k in corners:
+                _lengthen(indices[k], before)
+                indices[k].extend(corners[k])
+            sizes.extend(words[is_face].astype(np.int32))
+            face_at.extend((heads[is_face] + at).astype(np.int32))
         for k in _VECTORS:
-            vectors[k].append(found[k])
+            vectors[k].extend(found[k])
             total[k] += len(found[k])
-            check.limit(name, total[k], sum(map(len, indices[k])))
-        vertex_at.append((heads[kind == _V] + at).astype(np.int32))
+        check.limit(name, max(total.values()), len(indices[_V]) // 4)
+        vertex_at.extend((heads[kind == _V] + at).astype(np.int32))
 
     places = {"vertex": vertex_at, "face": face_at}
-    vectors = {k: np.concatenate(vectors[k]) for k in _VECTORS}
-    indices = {k: np.concatenate(indices[k], dtype=np.int64) for k in _VECTORS}
+    vectors = {k: np.frombuffer(vectors[k]).reshape(-1, _WIDTH[k]) for k in _VECTORS}
+    for k in (_VT, _VN):
+        if indices[k]:
+            _lengthen(indices[k], len(indices[_V]))
+    indices = {k: np.frombuffer(indices[k], np.int32) if indices[k] else None for k in _VECTORS}
     return check.polygons(
         name,
         vectors[_V],
         indices[_V],
-        np.concatenate(sizes, dtype=np.int64),
+        np.frombuffer(sizes, np.int32),
         vectors[_VN],
         indices[_VN],
         vectors[_VT],
         indices[_VT],
         notes,
         first=1,
-        line_of=lambda kind, index: text.line(data, int(np.concatenate(places[kind])[index])),
+        line_of=lambda kind, index: text.line(data, memoryview(places[kind]).cast("i")[index]),
     )
+
+
+def _lengthen(indices, length):
+    """Append -1 to a bytearray of int32 until it has `length` bytes: corners without an index."""
+    indices.extend(b"\xff" * (length - len(indices)))
 
 
 def _kinds(buffer, starts, stops):
@@ -117,7 +128,8 @@ def _vectors(buffer, kind, words, name, data, at):
 def _corners(buffer, kind, sizes, total, name, data, at):
     """Return {kind: (C,) int32}, the indices from 0 of the face corners in `buffer`, -1 for none.
 
-    `kind` are the statements, `sizes` the corners of each face, total[kind] the vectors before.
+    A kind that no corner has is left out. `kind` are the statements, `sizes` the corners of each
+    face, total[kind] the vectors before.
     """
     slash, blank = buffer == ord("/"), buffer <= text.SPACE
     if (slash[:-1] & blank[1:]).any():  # some programs write 1// for 1
@@ -141,7 +153,6 @@ def _corners(buffer, kind, sizes, total, name, data, at):
     for k, mine in zip(_VECTORS, (head, field == 1, field == 2), strict=True):
         index = values[mine]
         if len(index) == 0:
-            found[k] = np.broadcast_to(np.int32(-1), sizes.sum())  # takes no memory
             continue
         if index.min() < 1 or index.max() > check.MOST_VERTICES:
             known = (total[k] + np.cumsum(kind == k))[kind == _F]  # vectors before each face

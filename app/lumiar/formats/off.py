@@ -8,7 +8,7 @@ from lumiar.formats import check, rows, text
 
 _HEADER = 1 << 16  # the counts come within so many bytes, comments included
 _LINE = re.compile(rb"[^\r\n]+")
-_KEYWORD = re.compile(rb"(ST)?(C)?(N)?OFF")
+_KEYWORD = re.compile(rb"(ST)?(C)?(N)?OFF(\d+)?")  # many files have the first count right after
 _BINARY = re.compile(rb"\s*+(\w*OFF[ \t]+BINARY)\b")
 _COUNTS = re.compile(rb"(\d{1,15})\s+(\d{1,15})(\s+[+-]?\d+)?")
 _PLAIN = "write 'OFF', or with ST (texture coordinates), C (colours) or N (normals) before it"
@@ -28,37 +28,39 @@ def read(data, name):
     if 0 in counts:
         raise check.mistake(name, check.NO_FACES)
     check.limit(name, vertices=counts[0])
-    vertices, faces = [], []
+    positions, normals, uvs, corners, sizes = (bytearray() for _ in range(5))
+    places = bytearray(), bytearray()
     for section, piece in rows.sections(data, name, start, counts, comments=True):
         if section == 0:
-            if not vertices:
+            if not positions:
                 width = int(piece.count[0])
                 _check_width(width, flags, name, data, int(piece.at[0]), notes)
-            vertices.append(_vertices(piece, flags, width, name, data))
+            found = _vertices(piece, flags, width, name, data)
+            stores = (positions, normals, uvs)
         elif section == 1:
             counted, picked = rows.lists(piece, piece.first, name, data)
-            corners = rows.integers(piece, counted, picked, name, data)
-            faces.append((counted, corners, piece.at))
-            check.limit(name, corners=sum(len(corners) for _, corners, _ in faces))
+            found = rows.integers(piece, counted, picked, name, data), counted.astype(np.int32)
+            stores = (corners, sizes)
+            check.limit(name, corners=len(corners) // 4)
         else:
             notes.append("text after the last face ignored")
-    positions, normals, uvs, vertex_at = (
-        np.concatenate(part) for part in zip(*vertices, strict=True)
-    )
-    sizes, corners, face_at = (np.concatenate(part) for part in zip(*faces, strict=True))
-    textured, _, normal = flags
-    at = {"vertex": vertex_at, "face": face_at}
+            break
+        for store, values in zip((*stores, places[section]), (*found, piece.at), strict=True):
+            store.extend(values)
+    corners = np.frombuffer(corners, np.int32)
     return check.polygons(
         name,
-        positions,
+        np.frombuffer(positions).reshape(-1, 3),
         corners,
-        sizes,
-        normals=normals if normal else None,
-        normal_of=corners if normal else None,
-        uvs=uvs if textured else None,
-        uv_of=corners if textured else None,
+        np.frombuffer(sizes, np.int32),
+        normals=np.frombuffer(normals).reshape(-1, 3) if normals else None,
+        normal_of=corners if normals else None,
+        uvs=np.frombuffer(uvs).reshape(-1, 2) if uvs else None,
+        uv_of=corners if uvs else None,
         notes=notes,
-        line_of=lambda kind, index: text.line(data, int(at[kind][index])),
+        line_of=lambda kind, index: text.line(
+            data, memoryview(places[kind == "face"]).cast("i")[index]
+        ),
     )
 
 
@@ -70,9 +72,10 @@ def _header(data, name, start, notes):
         if words and flags is None:
             keyword = _KEYWORD.fullmatch(words[0])
             if keyword:
-                flags, words = keyword.groups(), words[1:]
+                *flags, count = keyword.groups()
+                words = [count, *words[1:]] if count else words[1:]
             elif len(words) == 3 and all(word.isdigit() for word in words):
-                flags = (None, None, None)
+                flags = [None, None, None]
                 notes.append("the keyword OFF is missing")
             else:
                 what = f"'{line[0][:40].decode('latin-1')}' is no OFF header; {_PLAIN}"
@@ -83,11 +86,12 @@ def _header(data, name, start, notes):
                 what = "the counts are 'vertices faces edges', three whole numbers from 0"
                 raise text.fail(name, data, line.start(), what)
             return flags, (int(counts[1]), int(counts[2])), line.end()
-    raise text.fail(name, data, len(data), f"no counts in the first 64 kB; {_PLAIN}")
+    end = min(len(data), start + _HEADER)
+    raise text.fail(name, data, end, f"no counts in the first 64 kB; {_PLAIN}")
 
 
 def _vertices(piece, flags, width, name, data):
-    """Return (positions, normals, uvs, byte), a row for each of the vertex lines `piece`.
+    """Return positions, normals and uvs, a row for each line of `piece`, without columns if none.
 
     Raises a Mistake at a line that has not `width` numbers.
     """
@@ -96,9 +100,9 @@ def _vertices(piece, flags, width, name, data):
         row = int(np.argmax(odd))
         what = f"{piece.count[row]} numbers, but the first vertex has {width}; write {width}"
         raise text.fail(name, data, int(piece.at[row]), what)
-    table = piece.values[piece.first[:, None] + np.arange(width)]
-    _, _, normal = flags
-    return table[:, :3], table[:, 3 : 6 if normal else 3], table[:, -2:], piece.at
+    textured, _, normal = flags
+    ranges = (0, 3), (3, 6 if normal else 3), (width - 2 if textured else width, width)
+    return tuple(piece.values[piece.first[:, None] + np.arange(*range_)] for range_ in ranges)
 
 
 def _check_width(width, flags, name, data, at, notes):

@@ -10,6 +10,7 @@ from lumiar.formats.ply_values import FACES, INDICES, Element, Property
 
 _MARK = b"\xef\xbb\xbf"
 _HEADER = 1 << 20  # bytes within which the header must end
+_MOST = 1000  # elements, and properties of an element
 _LINE = re.compile(rb"([^\r\n]*)(\r\n|\n|\r)")
 _ORDER = {"ascii": None, "binary_little_endian": "<", "binary_big_endian": ">"}
 _TYPES = {
@@ -36,29 +37,32 @@ def read(data, name):
 
     def columns(*names):
         found = [vertex[key][1] for key in names if key in vertex and vertex[key][0] is None]
-        return np.stack(found, 1).astype(np.float64) if len(found) == len(names) else None
+        return check.float64(np.stack(found, 1)) if len(found) == len(names) else None
 
     sizes, corners = _indices(face)
     strip_corners, strip_rows = _triangles(*_indices(strips))
-    corners = np.concatenate([corners, strip_corners])
+    faces = len(sizes)
+    if len(strip_rows):
+        corners = np.concatenate([corners, strip_corners])
+        sizes = np.concatenate([sizes, np.full(len(strip_rows), 3)])
     positions, normals = columns("x", "y", "z"), columns("nx", "ny", "nz")
     uvs = next((found for found in (columns(*pair) for pair in _UVS) if found is not None), None)
     uv_of = None if uvs is None else corners
     if face.get("texcoord", (None,))[0] is not None:
-        uvs, uv_of = _face_uvs(face["texcoord"], sizes, len(strip_corners), notes)
+        uvs, uv_of = _face_uvs(face["texcoord"], sizes[:faces], len(strip_corners), notes)
 
     def line_of(kind, index):
         if not places:
             return None
-        if kind == "face" and index >= len(sizes):
-            kind, index = "tristrips", strip_rows[index - len(sizes)]
+        if kind == "face" and index >= faces:
+            kind, index = "tristrips", strip_rows[index - faces]
         return text.line(data, int(places[kind][index]))
 
     return check.polygons(
         name,
         positions,
         corners,
-        np.concatenate([sizes, np.full(len(strip_rows), 3)]),
+        sizes,
         normals,
         None if normals is None else corners,
         uvs,
@@ -102,8 +106,11 @@ def _declare(words, elements):
     if words[0] == "element":
         if len(words) != 3 or not (words[2].isascii() and words[2].isdigit()):
             raise Mistake("write 'element NAME COUNT' with a count from 0")
-        if len(words[2]) > 12 or int(words[2]) > check.MOST_VERTICES:
-            raise Mistake(f"{words[2][:20]} rows, but at most {check.MOST_VERTICES} are read")
+        most = check.MOST_VERTICES if words[1] == "vertex" else check.MOST_CORNERS // 3
+        if len(words[2]) > 12 or int(words[2]) > most:
+            raise Mistake(f"{words[2][:20]} rows, but at most {most} are read; simplify the mesh")
+        if len(elements) == _MOST:
+            raise Mistake(f"over {_MOST} elements; write fewer")
         if words[1] in (element.name for element in elements):
             raise Mistake(f"a second element '{words[1]}'; write each element once")
         elements.append(Element(words[1], int(words[2]), []))
@@ -120,6 +127,8 @@ def _declare(words, elements):
     added = Property(words[-1], codes[-1], codes[0] if listed else None)
     if added.name in (known.name for known in elements[-1].properties):
         raise Mistake(f"a second property '{added.name}'; write each property once")
+    if len(elements[-1].properties) == _MOST:
+        raise Mistake(f"over {_MOST} properties of one element; write fewer")
     if listed and "f" in codes[0]:
         raise Mistake(f"a list's count cannot be {types[0]}; write uchar or int")
     whole = listed and "f" not in codes[1]
@@ -130,24 +139,26 @@ def _declare(words, elements):
 
 def _check(order, elements):
     """Raise a Mistake if the header lacks something that a mesh needs."""
-    properties = {e.name: {p.name: p.count for p in e.properties} for e in elements}
     if order == "":
         raise Mistake("no format line before it; write 'format ascii 1.0' or a binary format")
-    if any(properties.get("vertex", {}).get(axis, "none") is not None for axis in "xyz"):
-        raise Mistake("no element vertex with the properties x, y and z before it; write them")
-    if any(element.name == "vertex" and element.rows == 0 for element in elements):
-        raise Mistake(f"no vertices and so {check.NO_FACES}")
+    single = [
+        prop.name
+        for element in elements
+        for prop in element.properties
+        if element.name == "vertex" and element.rows and not prop.count
+    ]
+    if not {"x", "y", "z"}.issubset(single):
+        raise Mistake("no vertices with the properties x, y and z before it; write them")
     for element in elements:
-        listed = any(key in properties[element.name] for key in INDICES)
+        listed = any(prop.name in INDICES for prop in element.properties)
         if element.name in FACES and element.rows and not listed:
             raise Mistake(f"element {element.name} has no list vertex_indices; write it")
 
 
 def _indices(table):
     """Return (counts, values) of the list of vertex indices in `table`, empty if there is none."""
-    none = np.empty(0, np.int64), np.empty(0, np.int64)
-    counts, values = next((table[key] for key in INDICES if key in table), none)
-    return counts, values.astype(np.int64)
+    none = np.empty(0, np.int32), np.empty(0, np.int32)
+    return next((table[key] for key in INDICES if key in table), none)
 
 
 def _triangles(counts, values):
@@ -172,7 +183,7 @@ def _face_uvs(texcoord, sizes, others, notes):
     fits = counts == 2 * sizes
     if (~fits & (counts > 0)).any():
         notes.append(f"texture coordinates of {(~fits & (counts > 0)).sum()} faces do not fit them")
-    uvs = values[np.repeat(fits, counts)].reshape(-1, 2).astype(np.float64)
+    uvs = check.float64(values[np.repeat(fits, counts)].reshape(-1, 2))
     uv_of = np.full(sizes.sum() + others, -1)
     uv_of[: sizes.sum()][np.repeat(fits, sizes)] = np.arange(len(uvs))
     return uvs, uv_of

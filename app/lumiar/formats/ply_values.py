@@ -16,7 +16,7 @@ from lumiar.formats import check, rows, text
 FACES = ("face", "tristrips")
 INDICES = ("vertex_indices", "vertex_index")
 _WANTED = {*INDICES, *"xyzstuv", "nx", "ny", "nz", "texture_u", "texture_v", "texcoord"}
-_MOST_LISTS = 20_000_000  # read one by one, some seconds
+_MOST_LISTS = 10_000_000  # read one by one, some seconds
 _STRUCT = {"i1": "b", "u1": "B", "i2": "h", "u2": "H", "i4": "i", "u4": "I"}
 
 
@@ -42,17 +42,32 @@ def from_text(data, name, start, elements, notes):
     Raises a Mistake as name:line for a line that does not fit its element.
     """
     text.opening(data, name)
-    pieces = {element.name: [] for element in elements}
-    places = {element.name: [np.empty(0, np.int64)] for element in elements}
+    stores, places = {}, {}  # as bytes that grow, which need less memory than many small arrays
     counts = [element.rows if element.properties else 0 for element in elements]
     for section, piece in rows.sections(data, name, start, counts):
         if section == len(elements):
             notes.append("text after the last element ignored")
             break
-        pieces[elements[section].name].append(_from_lines(piece, elements[section], name, data))
-        places[elements[section].name].append(piece.at)
-    tables = {element: _join(found) for element, found in pieces.items() if found}
-    return tables, {element: np.concatenate(parts) for element, parts in places.items()}
+        element = elements[section]
+        places.setdefault(element.name, bytearray()).extend(piece.at)
+        store = stores.setdefault(element.name, {})
+        for key, (lengths, values) in _from_lines(piece, element, name, data).items():
+            grown = store.setdefault(key, (bytearray(), bytearray(), values.dtype))
+            grown[1].extend(values)
+            if lengths is not None:
+                grown[0].extend(lengths.astype(np.int32))
+                check.limit(name, corners=len(grown[1]) // values.itemsize)
+    tables = {
+        element: {
+            key: (
+                np.frombuffer(grown[0], np.int32) if grown[0] else None,
+                np.frombuffer(*grown[1:]),
+            )
+            for key, grown in store.items()
+        }
+        for element, store in stores.items()
+    }
+    return tables, {element: np.frombuffer(at, np.int32) for element, at in places.items()}
 
 
 def _from_lines(piece, element, name, data):
@@ -81,16 +96,6 @@ def _check_fit(fits, piece, element, name, data):
         what = f"{piece.count[row]} numbers do not fit element {element.name}; "
         what += f"write {' '.join(prop.name for prop in element.properties)}"
         raise text.fail(name, data, int(piece.at[row]), what)
-
-
-def _join(tables):
-    """Return one table of the rows of all of `tables`, which have the same properties."""
-    joined = {}
-    for key in tables[0]:
-        counts, values = zip(*(table[key] for table in tables), strict=True)
-        listed = counts[0] is not None
-        joined[key] = np.concatenate(counts) if listed else None, np.concatenate(values)
-    return joined
 
 
 def from_bytes(data, name, at, elements, order, notes):
@@ -137,7 +142,7 @@ def _from_bytes(data, at, element, order):
             table = {}
             for p in element.properties:
                 if p.name in _WANTED:
-                    counts = values[f"{p.name} count"].astype(np.int64) if p.count else None
+                    counts = values[f"{p.name} count"].astype(np.int32) if p.count else None
                     table[p.name] = counts, values[p.name].ravel()
             return table, at + values.nbytes
     return _from_ragged(data, at, element, order)
@@ -148,6 +153,8 @@ def _from_ragged(data, at, element, order):
     if element.rows * sum(prop.count is not None for prop in element.properties) > _MOST_LISTS:
         raise Mistake(f"over {_MOST_LISTS} lists that differ in length; triangulate the mesh")
     at, places, counts, end = _walk(data, at, element, order, element.rows)
+    if (counts.sum(axis=0) > check.MOST_CORNERS).any():
+        raise Mistake(f"lists of over {check.MOST_CORNERS} values; simplify the mesh")
     table, column = {}, 0
     for prop in element.properties:
         size = np.dtype(prop.type).itemsize
@@ -187,6 +194,6 @@ def _walk(data, at, element, order, count):
         at += skip
     if at > len(data):
         raise EOFError
+    starts, places, counts = (np.frombuffer(found, np.int64) for found in (starts, places, counts))
     shape = (count, len(steps))
-    places, counts = np.array(places).reshape(shape), np.array(counts).reshape(shape)
-    return np.array(starts), places, counts, at
+    return starts, places.reshape(shape), counts.reshape(shape), at

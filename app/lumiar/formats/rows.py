@@ -42,7 +42,8 @@ def sections(data, name, start, counts, comments=False):
             part = slice(done, min(done + todo[section], len(first)))
             todo[section] -= part.stop - part.start
             done = part.stop
-            yield section, Rows(values, first[part], count[part], starts[first[part]] + at)
+            places = (starts[first[part]] + at).astype(np.int32)
+            yield section, Rows(values, first[part], count[part], places)
     if any(todo):
         what = f"the file is cut off: {sum(todo)} of the {sum(counts)} promised lines are missing"
         raise text.fail(name, data, len(data), what)
@@ -50,8 +51,12 @@ def sections(data, name, start, counts, comments=False):
 
 def spans(starts, counts, step=1):
     """Return starts[i], starts[i] + step, ..., counts[i] of them, one i after another, as (N,)."""
-    begin = np.cumsum(counts) - counts
-    return np.repeat(starts - begin * step, counts) + np.arange(counts.sum()) * step
+    starts, counts = starts[counts > 0], counts[counts > 0]
+    found = np.full(counts.sum(), step)
+    if len(found):
+        found[0] = starts[0]
+        found[np.cumsum(counts)[:-1]] = starts[1:] - starts[:-1] - (counts[:-1] - 1) * step
+    return np.cumsum(found, out=found)
 
 
 def lists(rows, begin, name, data):
@@ -72,15 +77,15 @@ def lists(rows, begin, name, data):
 
 
 def integers(rows, counts, picked, name, data):
-    """Return the (N,) int64 of rows.values[picked], counts[i] of them from line i."""
+    """Return the (N,) int32 of rows.values[picked], counts[i] of them from line i."""
     values = rows.values[picked]
     bad = ~_whole(values)
     if bad.any():
         row = int(np.searchsorted(np.cumsum(counts), np.argmax(bad), side="right"))
-        what = f"index {values[bad][0]:g} is not a whole number; vertices are counted from 0"
+        what = f"index {values[bad][0]:g} is of no vertex; write whole numbers from 0"
         raise text.fail(name, data, int(rows.at[row]), what)
-    return values.astype(np.int64)
+    return values.astype(np.int32)
 
 
 def _whole(values):
-    return (np.floor(values) == values) & (np.abs(values) < 2**53)
+    return (np.floor(values) == values) & (np.abs(values) < 2**31)

@@ -1,13 +1,16 @@
 """STL: triangles without shared vertices, binary or as text. Its normals are not used."""
 
+import re
+
 import numpy as np
 
 from lumiar.formats import check, text
 
+_LINE = re.compile(rb"[^\r\n]{0,40}")
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
-_WORDS = {  # every statement with how many words it has at least and at most
-    b"solid": (1, 10**9),
-    b"endsolid": (1, 10**9),
+_WORDS = {  # each statement with how many words it has at least and at most
+    b"solid": (1, 1 << 30),
+    b"endsolid": (1, 1 << 30),
     b"facet": (5, 5),
     b"outer": (2, 2),
     b"vertex": (4, 4),
@@ -15,8 +18,11 @@ _WORDS = {  # every statement with how many words it has at least and at most
     b"endfacet": (1, 1),
 }
 _SOLID, _ENDSOLID, _FACET, _OUTER, _VERTEX, _ENDLOOP, _ENDFACET = range(7)
-_ORDER = np.array([_FACET, _OUTER, _VERTEX, _VERTEX, _VERTEX, _ENDLOOP, _ENDFACET])
-_RULE = "a facet is: facet normal x y z, outer loop, vertex x y z three times, endloop, endfacet"
+_FACET_LINES = np.array([_FACET, _OUTER, _VERTEX, _VERTEX, _VERTEX, _ENDLOOP, _ENDFACET])
+_FORMS = (
+    *("facet normal x y z' or 'endsolid", "outer loop"),
+    *("vertex x y z", "vertex x y z", "vertex x y z", "endloop", "endfacet"),
+)
 
 
 def read(data, name):
@@ -44,7 +50,7 @@ def _binary(data, name, promised):
         raise check.mistake(name, f"{what} (byte {84 + 50 * bad})")
     extra = left - 50 * promised
     notes = [f"{extra} bytes after the last triangle ignored"] if extra else []
-    return _soup(name, triangles.astype(float).reshape(-1, 3), notes)
+    return _soup(name, check.float64(triangles).reshape(-1, 3), notes)
 
 
 def _soup(name, positions, notes, line_of=lambda kind, index: None):
@@ -56,36 +62,42 @@ def _soup(name, positions, notes, line_of=lambda kind, index: None):
 
 def _text(data, name):
     start, notes = text.opening(data, name)
-    kinds, places, positions = [], [], [np.empty((0, 3))]
+    positions, vertex_at = bytearray(), bytearray()
+    turn, last = 0, _SOLID  # the line of a facet that is due, and the last statement
     for at, buffer in text.blocks(data, name, start):
         starts, stops, first, count = text.words(buffer)
         if len(first) == 0:
             continue
         kind = _kinds(buffer, starts[first], stops[first])
+        inside = kind >= _FACET
+        turns = (turn + np.cumsum(inside) - inside) % len(_FACET_LINES)
         least, most = np.array([(1, 0), *_WORDS.values()])[kind + 1].T
-        wrong = (count < least) | (count > most)
-        if wrong.any():
-            line = int(np.argmax(wrong))
-            word = buffer[starts[first[line]] : stops[first[line]]][:40].tobytes().decode("latin-1")
-            what = f"'{word}' with {count[line] - 1} words after it is no STL statement; {_RULE}"
-            raise text.fail(name, data, at + int(starts[first[line]]), what)
-        number = np.repeat(kind == _VERTEX, count)
+        right = np.where(inside, kind == _FACET_LINES[turns], turns == 0)
+        right &= (count >= least) & (count <= most)
+        if not right.all():
+            line = int(np.argmin(right))
+            place = at + int(starts[first[line]])
+            found = _LINE.match(data, place)[0].decode("latin-1")
+            what = f"'{found}' where '{_FORMS[turns[line]]}' belongs; export the file again"
+            raise text.fail(name, data, place, what)
+        turn, last = (turns[-1] + inside[-1]) % len(_FACET_LINES), kind[-1]
+
+        number = np.repeat(kind == _VERTEX, count)  # for each word, and none of the keywords
         number[first] = False
         keep = np.zeros(len(buffer), bool)
         keep[starts[0] :] = np.repeat(number, np.diff(starts, append=len(buffer)))
-        values = text.only(buffer, keep)
-        values = text.numbers(values, int(number.sum()), float, name, data, at)
-        positions.append(values.reshape(-1, 3))
-        kinds.append(kind)
-        places.append((starts[first] + at).astype(np.int32))
-    kinds, places = np.concatenate(kinds), np.concatenate(places)
-    _check_order(kinds, places, name, data)
-    vertex_at = places[kinds == _VERTEX]
+        only = text.only(buffer, keep)
+        values = text.numbers(only, int(number.sum()), float, name, data, at)
+        positions.extend(values)
+        vertex_at.extend((starts[first[kind == _VERTEX]] + at).astype(np.int32))
+    if last != _ENDSOLID:
+        what = "the file ends without 'endsolid': it is cut off; export it again"
+        raise text.fail(name, data, len(data), what)
 
     def line_of(_, vertex):
-        return text.line(data, int(vertex_at[vertex]))
+        return text.line(data, memoryview(vertex_at).cast("i")[vertex])
 
-    return _soup(name, np.concatenate(positions), notes, line_of)
+    return _soup(name, np.frombuffer(positions).reshape(-1, 3), notes, line_of)
 
 
 def _kinds(buffer, starts, stops):
@@ -97,19 +109,3 @@ def _kinds(buffer, starts, stops):
     for index, word in enumerate(_WORDS):
         kind[words == word] = index
     return kind
-
-
-def _check_order(kinds, places, name, data):
-    """Raise a Mistake at the first statement that is out of order."""
-    inside = (kinds != _SOLID) & (kinds != _ENDSOLID)
-    turn = (np.cumsum(inside) - inside) % len(_ORDER)  # what should come next in a facet
-    wrong = np.where(inside, kinds != _ORDER[turn], turn != 0)
-    keywords = [word.decode() for word in _WORDS]
-    if wrong.any():
-        line = int(np.argmax(wrong))
-        expected = keywords[_ORDER[turn[line]]]
-        what = f"'{keywords[kinds[line]]}' where '{expected}' belongs; {_RULE}"
-        raise text.fail(name, data, int(places[line]), what)
-    if kinds[-1] != _ENDSOLID:
-        what = "the file ends without 'endsolid': it is cut off; export it again"
-        raise text.fail(name, data, len(data), what)
