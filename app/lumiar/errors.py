@@ -4,15 +4,20 @@
 class Mistake(Exception):
     """A fault in what the user gave; its one line names the place and what to write there."""
 
+    def __init__(self, text):
+        super().__init__(one_line(text, 100_000))
+
 
 def one_line(text, limit=300):
-    """Return `text` as one printable line of at most `limit` characters.
+    """Return `text` as one printable line of at most `limit` characters, cut in its middle.
 
-    Control characters and line breaks become spaces, so that no file name or driver log can break
-    the promise of a one-line message.
+    Control characters and line breaks become blanks, bytes of a name that are no UTF-8 are shown as
+    such, so that no file name or driver log can break the promise of a one-line message.
     """
-    line = " ".join("".join(c if c.isprintable() else " " for c in str(text)).split())
-    return line if len(line) <= limit else line[: limit - 1] + "…"
+    text = str(text).encode("utf-8", "backslashreplace").decode()
+    line = " ".join("".join(c if c.isprintable() else " " for c in text).split())
+    head = limit // 3
+    return line if len(line) <= limit else f"{line[:head]}…{line[head + 1 - limit :]}"
 
 
 def nearest(word, allowed):

@@ -53,6 +53,22 @@ def read_bytes(path, limit, what):
         raise Mistake(f"{path}: cannot be read ({reason}); name {what}") from None
 
 
+def read_beside(path, relative, limit, what):
+    """Return the bytes of the file `relative` to the folder of `path`; see `read_bytes`.
+
+    Raises Mistake for one that lies outside that folder, by `..`, an absolute path or a link.
+    """
+    folder = os.path.realpath(os.path.dirname(path))
+    try:
+        target = os.path.realpath(os.path.join(folder, relative))
+        beside = os.path.commonpath((folder, target)) == folder
+    except ValueError:  # a lone surrogate, or another drive
+        beside = False
+    if not beside:
+        raise Mistake(f"{relative}: not in the folder of the file; put it beside the file")
+    return read_bytes(target, limit, what)
+
+
 def read_text(path, limit, what):
     """Return the text of `path`: UTF-8 without byte-order mark; see `read_bytes`.
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from . import cache
 from .errors import Mistake, nearest
-from .files import ASSETS, read_bytes
+from .files import ASSETS, read_beside, read_bytes
 from .parameter import Parameter
 
 FORMATS = (".obj", ".ply", ".stl", ".off", ".glb", ".gltf")
@@ -209,13 +209,12 @@ def file_parts(path, data):
     """Return the bytes that a mesh file consists of: its own, and those of the buffers it names."""
     parts = [data]
     if path.lower().endswith(".gltf"):
-        from urllib.parse import unquote_to_bytes
+        from urllib.parse import unquote
 
-        folder = os.path.dirname(path)
-        for uri in re.findall(rb'"uri"\s*:\s*"([^":]+)"', data):
-            with contextlib.suppress(Mistake, ValueError):
-                name = os.path.join(folder, os.fsdecode(unquote_to_bytes(uri)))
-                parts.append(read_bytes(name, FILE_LIMIT, "a buffer"))
+        for uri in re.findall(rb'"uri"\s*:\s*"([^"]{1,1000})"', data):
+            with contextlib.suppress(Mistake):  # the reader will tell what is wrong with it
+                name = unquote(uri.decode("utf-8", "surrogateescape"), errors="surrogateescape")
+                parts.append(read_beside(path, name, FILE_LIMIT, "a buffer"))
     return parts
 
 

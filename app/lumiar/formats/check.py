@@ -3,7 +3,7 @@
 import numpy as np
 
 from lumiar.errors import Mistake, one_line
-from lumiar.mesh import Polygons
+from lumiar.polygons import Polygons
 
 MOST_VERTICES = 10_000_000  # with MOST_CORNERS, keeps a refused file under 1.5 GB of memory
 MOST_CORNERS = 50_000_000
@@ -13,9 +13,10 @@ FARTHEST = 1e18  # squares of float32 numbers beyond this overflow
 
 def mistake(name, what, line=None):
     """Return the Mistake that says in one line `what` is wrong in file `name`, at a `line`."""
-    shown = str(name).encode("utf-8", "backslashreplace").decode()  # names that are not UTF-8
+    shown = one_line(name, 1000)
     shown = shown if len(shown) <= 150 else "…" + shown[-149:]  # leaves room for the advice
-    return Mistake(one_line(f"{shown}: {what}" if line is None else f"{shown}:{line}: {what}"))
+    where = shown if line is None else f"{shown}:{line}"
+    return Mistake(one_line(f"{where}: {what}"))
 
 
 def limit(name, vertices=0, corners=0):
