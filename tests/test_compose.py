@@ -6,7 +6,7 @@ import subprocess
 
 import pytest
 
-from lumiar import catalog, compose
+from lumiar import catalog, compose, glsltext
 from lumiar.errors import Mistake
 
 LIGHTS = catalog.names("light")
@@ -35,7 +35,7 @@ def parsed(text):
 
 
 def code(source):
-    return catalog.without_comments(source.text)
+    return glsltext.without_comments(source.text)
 
 
 @pytest.mark.parametrize("rate", RATES)
@@ -63,7 +63,7 @@ def test_everything_declared_is_used(rate, model, lights, facts):
     shader = parsed(ANISOTROPIC) if model == "anisotropic" else model
     sources = surface(shader, lights, rate, two_sided=facts[0], transformed=facts[1])
     for stage, source in sources.items():
-        for _, _, names, _, kept in compose._chunks(code(source)):
+        for _, _, names, _, kept in glsltext.chunks(code(source)):
             if kept or "main" in names or any(n.isupper() for n in names):
                 continue  # what goes from stage to stage, and the words for choices
             for name in names:
@@ -180,7 +180,7 @@ def test_a_file_is_included_once_and_circles_are_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(compose, "GLSL", str(tmp_path))
     (tmp_path / "lib" / "a.glsl").write_text('#include "lib/b.glsl"\nfloat a() { return b(); }\n')
     (tmp_path / "lib" / "b.glsl").write_text("float b() { return 1.0; }\n")
-    text = '#include "lib/b.glsl"\n#include "lib/a.glsl"\n'
+    text = '#include "lib/b.glsl"  // once\n#include "lib/a.glsl"\n'
     text += "vec3 scatter(vec3 L, vec3 V) { return vec3(a() * b()); }"
     assert code(surface(parsed(text))["fragment"]).count("float b()") == 1
     (tmp_path / "lib" / "b.glsl").write_text('#include "lib/a.glsl"\n')

@@ -11,7 +11,8 @@ APP = ROOT / "app" / "lumiar"
 FLOORS = [  # lowest first; a module imports only from floors below its own
     "errors",
     "files",
-    "parameter cache supervise polygons reference camera tomltext driverlog difference image sheet",
+    "parameter cache supervise polygons reference camera tomltext driverlog glsltext difference "
+    "image sheet",
     "catalog mesh",
     "formats shapes",
     "geometry compose parts",

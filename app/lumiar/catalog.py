@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from .errors import Mistake, nearest
 from .files import GLSL, read_text
+from .glsltext import without_comments
 from .parameter import TINT, Parameter, parse_uniform
 
 SOURCE_LIMIT = 1 << 20  # bytes of one GLSL file; a longer one is refused before any driver sees it
@@ -23,8 +24,6 @@ OWN_KEYS = {  # scene keys of an object or a light, which no parameter may take 
     "model": ("mesh", "model", "name", "position", "rotation", "scale", "fit", "crease"),
     "light": ("kind", "name"),
 }
-_HEADER = re.compile(r"//\s?(\w+)\s{2,}(\S.*)")
-_COMMENT = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)", re.DOTALL)
 _FUNCTION = re.compile(r"^[ \t]*\w+[ \t]+(\w+)[ \t]*\(", re.MULTILINE)
 
 
@@ -105,18 +104,13 @@ def parse(kind, name, path, text):
     if wanted and not defines.intersection(wanted):
         raise Mistake(f"{path}:1: a {kind} must define {' or '.join(wanted.values())}")
     header, places = _header(lines)
-    needs = tuple(w for w in re.split(r"[,\s]+", header.get("needs", "")) if w)
+    needs = tuple(header.get("needs", "").replace(",", " ").split())
     for word in needs:
         if word not in NEEDS:
             raise Mistake(f"{path}:{places['needs']}: needs '{word}'; {nearest(word, NEEDS)}")
     claims = _claims(header.get("claims", ""), parameters, f"{path}:{places.get('claims', 1)}: ")
     parameters = tuple(parameters.values())
     return Shader(kind, name, path, text, header, claims, needs, defines, parameters)
-
-
-def without_comments(text):
-    """Return GLSL text without its comments, all lines in place."""
-    return _COMMENT.sub(lambda found: "\n" * found.group().count("\n"), text)
 
 
 def _header(lines):
@@ -127,10 +121,10 @@ def _header(lines):
             if line.strip():
                 break
             continue
-        found = _HEADER.match(line)
-        if found:
-            key = found.group(1)
-            header[key], places[key] = found.group(2).strip(), number
+        word, _, said = line[2:].removeprefix(" ").partition("  ")
+        if word.isidentifier() and said.strip():
+            key = word
+            header[key], places[key] = said.strip(), number
         elif key:
             header[key] += " " + line[2:].strip()
     return header, places
@@ -138,7 +132,9 @@ def _header(lines):
 
 def _claims(text, parameters, where):
     claims = {}
-    for name, condition in re.findall(r"(\w+)\s*(?:\(([^)]*)\))?", text):
+    for claim in filter(None, map(str.strip, text.split(","))):
+        name, _, condition = claim.partition("(")
+        name, condition = name.strip(), condition.rstrip(") ")
         if name not in CLAIMS:
             raise Mistake(f"{where}claims '{name}'; {nearest(name, CLAIMS)}")
         choice, _, value = (part.strip() for part in condition.partition("="))

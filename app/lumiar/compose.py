@@ -4,9 +4,10 @@ import os
 import re
 from typing import NamedTuple
 
-from .catalog import SOURCE_LIMIT, read, without_comments
+from .catalog import SOURCE_LIMIT, read
 from .errors import Mistake
 from .files import GLSL, read_text
+from .glsltext import chunks, included, unreachable, without_comments
 
 STAGES = {
     "flat": {"vertex": "flat.vert", "geometry": "flat.geom", "fragment": "flat.frag"},
@@ -22,11 +23,6 @@ MAY_INCLUDE = {  # the floors of GLSL: which folders a file of a folder may incl
 }
 MAX_FILES, MAX_DEPTH = 256, 64
 MAX_UNIFORMS, MAX_ARRAY = 1024, 4096  # beyond, a driver's compiler may crash instead of complaining
-_INCLUDE = re.compile(r'\s*#\s*include\b\s*(?:"([^"]*)"\s*$)?')
-_MARK = re.compile(r"\s*// (each|where) ([a-z_ ]+)$")
-_ARRAY = re.compile(r"\[\s*(\d+)\s*\]")
-_WORD = re.compile(r"[A-Za-z_]\w*")
-_ALWAYS = {"layout", "in", "out", "flat", "smooth", "noperspective", "centroid", "precision"}
 
 
 class Source(NamedTuple):
@@ -111,12 +107,12 @@ def _fixed(shader, constants, suffix=""):
 def _renamed(light, index, constants):
     """Return the text of light number `index`, all that it declares with `_index` appended."""
     text = _fixed(light, constants, f"_{index}")
-    declared = {name for chunk in _chunks(without_comments(text)) for name in chunk[2]}
+    declared = {name for chunk in chunks(without_comments(text)) for name in chunk.names}
     pattern = re.compile(rf"(?<![.\w])({'|'.join(sorted(declared))})\b")
     lines = []
     for line in text.split("\n"):
         code, slashes, comment = line.partition("//")
-        if not _INCLUDE.match(code):
+        if included(code) is None:
             code = pattern.sub(rf"\1_{index}", code)
         lines.append(code + slashes + comment)
     return "\n".join(lines)
@@ -132,17 +128,16 @@ def _flatten(start, places, repeats, facts):
     def add(path, folder, text, chain):
         bare = without_comments(text).split("\n")
         for number, line in enumerate(text.split("\n"), 1):
-            found = _INCLUDE.match(bare[number - 1])
-            if found:
-                # The comment-stripped line lost nothing inside the quotes, unless it held `//`.
-                include(_INCLUDE.match(line).group(1), f"{path}:{number}: ", folder, chain)
+            name = included(bare[number - 1])
+            if name is not None:  # a name that holds `//` is whole in the raw line only
+                include(name or included(line), f"{path}:{number}: ", folder, chain)
             elif folder == "rigs":
                 out.extend((kept, path, number) for kept in _marked(line, repeats, facts))
             else:
                 out.append((line, path, number))
 
     def include(name, where, folder, chain):
-        if name is None:
+        if not name:
             raise Mistake(f'{where}write #include "lib/….glsl", the name in double quotes')
         if name in places:
             for path, kind, text in places[name]:
@@ -184,14 +179,17 @@ def _resolve(name, where, folder):
 
 def _marked(line, repeats, facts):
     """Return what a line of a rig becomes: itself, nothing, or one copy for every light."""
-    found = _MARK.search(line)
-    if not found:
+    if "//" not in line:
         return [line]
-    code, (mark, words) = line[: found.start()], found.groups()
-    if mark == "each":
-        return [re.sub(rf"\b{words}\b", name, code) for name in repeats.get(words, ())]
+    code, _, comment = line.rpartition("//")
+    mark, _, words = comment.strip().partition(" ")
+    if mark == "each" and words in repeats:
+        return [re.sub(rf"\b{words}\b", name, code.rstrip()) for name in repeats[words]]
     terms = [term.split() for term in words.split(" and ")]
-    return [code] if all(facts[term[-1]] == (term[0] != "not") for term in terms) else []
+    if mark != "where" or not all(term and term[-1] in facts for term in terms):
+        return [line]
+    holds = all(facts[term[-1]] == (term[0] != "not") for term in terms)
+    return [code.rstrip()] if holds else []
 
 
 def _finish(lines):
@@ -199,7 +197,7 @@ def _finish(lines):
     raw = [line for line, _, _ in lines]
     bare = without_comments("\n".join(raw)).split("\n")
     dropped = set()
-    for first, last in _unreachable(_chunks("\n".join(bare))):
+    for first, last, *_ in unreachable(chunks("\n".join(bare))):
         while first and raw[first - 1].strip() and not bare[first - 1].strip():
             first -= 1  # the comment right above goes with what it explains
         dropped.update(range(first, last + 1))
@@ -213,81 +211,17 @@ def _finish(lines):
     return Source(text + "\n", tuple((path, number) for _, path, number in out))
 
 
-def _chunks(text):
-    """Return the top-level declarations of comment-free GLSL: [(first, last, names, words, kept)].
-
-    first and last are line indices, names what a chunk declares, words the identifiers in it; kept
-    says that it stays whether used or not. Declarations that share a line make one chunk.
-    """
-    chunks, first, depth, lines = [], 0, 0, text.split("\n")
-    continued = False
-    for i, line in enumerate(lines):
-        bare = line.strip()
-        directive = bare.startswith("#") or continued
-        continued = directive and bare.endswith("\\")
-        if not directive:
-            depth += sum(map(bare.count, "({[")) - sum(map(bare.count, ")}]"))
-        open_end = bare and bare[-1] not in ";}" and not directive
-        if (depth == 0 and not open_end and not continued) or i == len(lines) - 1:
-            code = "\n".join(lines[first : i + 1])
-            words = set(_WORD.findall(code))
-            chunks.append((first, i, *_declared(code, words), words))
-            first = i + 1
-    return [(first, last, names, words, kept) for first, last, names, kept, words in chunks]
-
-
-def _declared(code, words):
-    """Return (names that a chunk of GLSL declares, whether it stays in any case)."""
-    head, brace, body = code.partition("{")
-    if "#" in code or not words.isdisjoint(_ALWAYS & set(_WORD.findall(head))):
-        return set(), True
-    if "struct" in words:
-        return set(re.findall(r"\bstruct\s+(\w+)", code)), False
-    if brace:
-        return set(_WORD.findall(head.partition("(")[0])[-1:]), _holds_several(body)
-    while "(" in head and head != (head := re.sub(r"\([^()]*\)", "", head)):
-        pass  # what is in brackets declares nothing
-    return set(
-        re.findall(r"(\w+)\s*(?:\[[^\]]*\]\s*)?(?==|,|;)", re.sub(r"=[^,;]*", "=", head))
-    ), False
-
-
-def _holds_several(body):
-    """Return whether a function body, from behind its first brace, ends before the text does."""
-    depth = 1
-    for found in re.finditer(r"[{}]", body):
-        depth += 1 if found.group() == "{" else -1
-        if depth == 0:
-            return bool(body[found.end() :].strip(" ;\n"))
-    return False
-
-
-def _unreachable(chunks):
-    """Return the (first, last) lines of the chunks that main() has no use for."""
-    declaring = {}
-    for chunk in chunks:
-        for name in chunk[2]:
-            declaring.setdefault(name, []).append(chunk)
-    wanted = [chunk for chunk in chunks if chunk[4] or "main" in chunk[2]]
-    reached = set()
-    while wanted:
-        chunk = wanted.pop()
-        if chunk[0] not in reached:
-            reached.add(chunk[0])
-            wanted.extend(other for word in chunk[3] for other in declaring.get(word, ()))
-    return [(first, last) for first, last, _, words, _ in chunks if words and first not in reached]
-
-
 def _check_limits(lines):
     """Refuse (path, number, code) lines that are known to bring compilers down."""
     uniforms = 0
     for path, number, code in lines:
-        uniforms += code.lstrip().startswith("uniform")
-        big = next((n for n in _ARRAY.findall(code) if int(n) > MAX_ARRAY), None)
-        if big:
-            raise Mistake(
-                f"{path}:{number}: an array of {big}; allowed: up to {MAX_ARRAY} elements"
-            )
+        uniforms += "uniform" in code
+        if "[" in code:
+            sizes = (part.partition("]")[0].strip() for part in code.split("[")[1:])
+            big = next((n for n in sizes if n.isdecimal() and int(n) > MAX_ARRAY), None)
+            if big:
+                what = f"an array of {big}; allowed: up to {MAX_ARRAY} elements"
+                raise Mistake(f"{path}:{number}: {what}")
         if uniforms > MAX_UNIFORMS:
             raise Mistake(f"{path}:{number}: more than {MAX_UNIFORMS} uniforms; use fewer")
     if sum(len(code) for _, _, code in lines) > SOURCE_LIMIT:

@@ -1,6 +1,7 @@
 """Where Lumiar's files lie, and writing one whole or not at all."""
 
 import contextlib
+import mmap
 import os
 import sys
 
@@ -30,11 +31,12 @@ def cache_folder():
     return os.path.join(base, "lumiar")
 
 
-def read_bytes(path, limit, what):
+def read_bytes(path, limit, what, mapped=False):
     """Return the bytes of `path`; raise Mistake, naming it, for anything but a file up to `limit`.
 
     Only a regular file is ever opened, so that a pipe or a device cannot stall the program. `what`
-    says what to name instead, as in "a mesh file".
+    says what to name instead, as in "a mesh file". If `mapped`, the bytes are a view of the file
+    itself, which costs nothing until they are looked at.
     """
     import stat
 
@@ -45,6 +47,8 @@ def read_bytes(path, limit, what):
         if status.st_size > limit:
             raise Mistake(f"{path}: {status.st_size} bytes; allowed for {what}: up to {limit}")
         with open(path, "rb") as file:
+            if mapped and status.st_size:
+                return memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
             return file.read(status.st_size)
     except FileNotFoundError:
         raise Mistake(f"{path}: no such file; name {what}") from None

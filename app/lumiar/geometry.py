@@ -152,7 +152,7 @@ def load(spec, folder="", crease=None, tangents=False, where=""):
     besides the reading of the file. Raises Mistake naming the file and the place in it.
     """
     shape, values, path = resolve(spec, folder, where)
-    data = read_bytes(path, FILE_LIMIT, "a mesh file") if path else b""
+    data = read_bytes(path, FILE_LIMIT, "a mesh file", mapped=True) if path else b""
     contents = [cache.fingerprint(part) for part in file_parts(path, data)] if path else []
     key = (shape, values, path and path[-4:], contents, crease, tangents, _code_version())
     parts = cache.get((*key, sys.byteorder))
@@ -177,7 +177,7 @@ def read_mesh(shape, values, path, data, crease):
 
     if shape:
         return shapes.make(shape, values)
-    return mesh.build(formats.parse(data, path), crease, path)
+    return mesh.build(formats.parse(bytes(data), path), crease, path)
 
 
 def prepare(mesh, tangents, name):

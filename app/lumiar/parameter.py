@@ -11,9 +11,9 @@ EXAMPLE = "uniform float k = 0.7;  // [0, 1]: what it is (unit)"
 _COUNTS = ("", "", "two numbers, each ", "three numbers, each ", "four numbers, each ")
 TINT = "color"  # the parameter that colours the tinted ones of a file
 _WORDS = {"log", "degrees", "tinted"}
+_APART = str.maketrans(",x", "  ")
 _LARGEST = 1e30  # beyond this, squares and products leave the range of a 32-bit float
 _UNIFORM = re.compile(r"\s*uniform\s+(\w+)\s+(\w+)\s*(?:=\s*([^;]*\S)\s*)?;\s*(?://\s*(.*?)\s*)?$")
-_RANGE = re.compile(r"\[\s*(\.\.)?\s*([^,\s]+)\s*,\s*([^,\s\]]+?)\s*(\.\.)?\s*\](.*)")
 
 
 class Parameter(NamedTuple):
@@ -98,8 +98,10 @@ class Parameter(NamedTuple):
             truth = {"true": True, "on": True, "yes": True, "false": False, "off": False}
             return self.check(truth.get(text.strip().lower(), text), where)
         try:
-            numbers = [float(part) for part in re.split(r"[,x\s]+", text.strip("[]() "))]
+            numbers = [float(part) for part in text.strip("[]() ").translate(_APART).split()]
         except ValueError:
+            numbers = []
+        if not numbers:
             self._refuse(text, where)
         return self.check(numbers[0] if len(numbers) == 1 else numbers, where)
 
@@ -123,8 +125,8 @@ def parse_uniform(line, number, path):
     if initial is None:
         raise Mistake(f"{where}no default; write {EXAMPLE}")
     form, _, text = note.partition(":")
-    unit = re.fullmatch(r"(.*?)\s*\(([^()]*)\)", text.strip())
-    text, unit = unit.groups() if unit else (text.strip(), "")
+    text, bracket, unit = text.strip().rpartition("(") if text.endswith(")") else (text, "", "")
+    text, unit = (text.strip(), unit[:-1]) if bracket else (text.strip() + unit.strip(), "")
     fields = _widget(form.strip(), kind, where)
     kind = "float" if fields.get("tinted") else kind
     bare = Parameter(name, kind, None, text=text, unit=unit, line=number, **fields)
@@ -134,20 +136,20 @@ def parse_uniform(line, number, path):
 
 def _widget(form, kind, where):
     """Return the Parameter fields that the form of an annotation stands for."""
-    found = _RANGE.fullmatch(form)
-    if found and kind != "bool":
-        before, low, high, after, words = found.groups()
-        words = set(words.split())
+    if form.startswith("[") and "]" in form and kind != "bool":
+        ends, _, words = form[1:].partition("]")
+        low, _, high = (end.strip() for end in ends.partition(","))
+        opened, words = (low.startswith(".."), high.endswith("..")), set(words.split())
         try:
-            low, high = float(low), float(high)
+            low, high = float(low.removeprefix("..")), float(high.removesuffix(".."))
             good = low < high and (low > 0 or "log" not in words)
         except ValueError:
             good = False
         if not good or words - _WORDS or ("tinted" in words and kind != "vec3"):
             advice = "write [lo, hi] with lo < hi, then log (lo > 0), degrees or tinted (a vec3)"
             raise Mistake(f"{where}'{form}' is no range for a {kind}; {advice}")
-        ends = {"low": low, "high": high, "open": (bool(before), bool(after))}
-        return {"widget": "slider", **{word: word in words for word in _WORDS}, **ends}
+        said = {word: word in words for word in _WORDS}
+        return {"widget": "slider", "low": low, "high": high, "open": opened, **said}
     if form.startswith("{") and form.endswith("}") and kind == "int":
         choices = tuple(word.strip() for word in form[1:-1].split(","))
         if len(set(choices)) == len(choices) > 1 and all(c.isidentifier() for c in choices):
@@ -164,14 +166,16 @@ def _widget(form, kind, where):
 
 def _default(initial, parameter, where):
     """Return the value of a uniform initialiser: a literal, vecN(...) or radians(...)."""
-    call = re.fullmatch(r"(vec[234]|radians)\s*\(([^()]*)\)", initial)
-    function, inner = call.groups() if call else ("", initial)
+    function, bracket, inner = initial.partition("(")
+    function, inner = (function.strip(), inner[:-1]) if bracket else ("", initial)
     if initial in ("true", "false"):
         return initial == "true"
     if parameter.degrees and function != "radians":
         raise Mistake(f"{where}a default in degrees is written radians({inner})")
     try:
         values = [float(v) for v in inner.split(",")]
+        if function not in ("", "radians", "vec2", "vec3", "vec4"):
+            raise ValueError
         if parameter.widget == "choice":
             return parameter.choices[int(initial)]
     except (ValueError, IndexError):

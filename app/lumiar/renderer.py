@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import moderngl
 
-from . import camera, compose, driverlog, geometry, layout
+from . import camera, compose, geometry, layout
 from .errors import Mistake, one_line
 from .parameter import TINT
 
@@ -94,13 +94,8 @@ class Renderer:
         self.draw(scene, radiance)
         self.present(scene, radiance, picture, linear)
         area, dtype, step = (0, 0, width, count), *(("f4", 16) if linear else ("f1", 4))
-        pixels = picture.read(area, 3, dtype=dtype)
-        if (
-            not linear and b"\xff\0\xff" not in pixels
-        ):  # no magenta anywhere, which is quick to tell
-            return pixels, 0
         finite = picture.read(area, 4, dtype=dtype)[step - 1 :: step]  # the top byte of alpha
-        return pixels, finite.count(b"\0")
+        return picture.read(area, 3, dtype=dtype), finite.count(b"\0")
 
     def draw(self, scene, framebuffer):
         """Draw the linear radiance of a scene into a framebuffer with a depth buffer."""
@@ -177,6 +172,8 @@ class Renderer:
         try:
             return self.context.program(**texts)
         except moderngl.Error as error:
+            from . import driverlog
+
             path, line, message = driverlog.locate(str(error), sources)
             where = f"{path}:{line}: " if path else ""
             raise Mistake(f"{where}the driver does not compile this: {message}") from None

@@ -63,7 +63,8 @@ def _be_the_child(job, channel):
     except BaseException:
         sys.excepthook(*sys.exc_info())
     finally:
-        sys.stderr.flush()
+        with contextlib.suppress(OSError):
+            sys.stderr.flush()
         os._exit(code)  # leaves out the interpreter's tidying-up, tens of milliseconds
 
 

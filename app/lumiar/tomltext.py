@@ -95,9 +95,12 @@ def _value(value):
 
 
 def _key(name):
-    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else _quoted(name)
+    plain = name.isascii() and name.replace("-", "a").replace("_", "a").isalnum()
+    return name if plain else _quoted(name)
 
 
 def _quoted(text):
+    if text.isprintable() and '"' not in text and "\\" not in text:
+        return f'"{text}"'
     inner = re.sub(r'[\x00-\x1f\x7f"\\]', lambda found: f"\\u{ord(found.group()):04x}", text)
     return f'"{inner}"'
