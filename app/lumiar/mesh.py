@@ -68,13 +68,11 @@ def build(polygons, crease=None, name="mesh"):
     closed = is_closed(at)
     against = False
     if normals is not None:
-        agreement = (face[:, None] * normals).sum(2)
+        agreement = _dot(face, normals.sum(1))
         against = np.count_nonzero(agreement < 0) > np.count_nonzero(agreement > 0)
-    if closed:
-        centred = p[:, 0] - p[:, 0].mean(0)
-        turn = (centred * face).sum() < 0.0
-    else:
-        turn = against
+    turn = against
+    if closed:  # a solid tells by its volume
+        turn = _dot(p[:, 0] - p[:, 0].mean(0), face).sum() < 0.0
     if turn:
         notes.append("faces turned to the outside")
         corner, at, p, face = corner[:, ::-1], at[:, ::-1], p[:, ::-1], -face
@@ -84,8 +82,7 @@ def build(polygons, crease=None, name="mesh"):
         normals = -normals
     if normals is None:
         normals = corner_normals(p, at, face, CREASE if crease is None else crease)
-    elif not normals.any(axis=2).all():
-        missing = ~normals.any(axis=2)
+    elif (missing := _dot(normals, normals) == 0.0).any():
         notes.append(f"{np.count_nonzero(missing)} missing normals computed")
         normals = np.where(missing[..., None], corner_normals(p, at, face, CREASE), normals)
     uvs = None
@@ -121,13 +118,13 @@ def corner_normals(p, at, face, crease):
     face  (F, 3) cross products of two edges, twice the area long
     """
     edges = _unit(np.roll(p, -1, axis=1) - p)
-    angles = np.arccos(np.clip(-(edges * np.roll(edges, 1, axis=1)).sum(2), -1.0, 1.0))
+    angles = np.arccos(np.clip(-_dot(edges, np.roll(edges, 1, axis=1)), -1.0, 1.0))
     weighted = (angles[:, :, None] * face[:, None]).reshape(-1, 3)
     at, unit = at.reshape(-1), np.repeat(_unit(face), 3, axis=0)
     total = np.stack([np.bincount(at, w) for w in weighted.T], axis=1)
     normals = _unit(total)[at]
     # Faces within crease / 2 of their mean are within crease of each other: nothing to split
-    apart = (normals * unit).sum(1) < np.cos(np.radians(crease / 2))
+    apart = _dot(normals, unit) < np.cos(np.radians(crease / 2))
     apart &= unit.any(axis=1)
     split = np.isin(at, at[apart]) if apart.any() else apart
     if split.any():
@@ -203,7 +200,7 @@ def _creased(at, unit, weighted, crease):
             k = np.arange(pairs) - np.repeat(np.cumsum(n**2) - n**2, n**2)
             one = order[start[group:end][of] + k // n[of]]
             other = order[start[group:end][of] + k % n[of]]
-            near = (unit[one] * unit[other]).sum(1) >= limit
+            near = _dot(unit[one], unit[other]) >= limit
             for axis in range(3):
                 sums = np.bincount(one[near], weighted[other[near], axis], len(at))
                 normals[:, axis] += sums
@@ -221,10 +218,11 @@ def _vertices(corners, normals, uvs):
     if uvs is not None:
         rows = np.concatenate([rows, np.nan_to_num(uvs.reshape(len(index), 2))], axis=1)
     rows = rows.astype(np.float32)  # as drawn, so that the same sum in another order is the same
-    last = np.zeros(int(index.max()) + 1, np.int64)
+    last = np.full(int(index.max()) + 1, -1)
     last[index] = np.arange(len(index))
     if (rows[last[index]] == rows).all():  # each position has one normal, as in most files
-        _, first, triangles = np.unique(index, return_index=True, return_inverse=True)
+        used = last >= 0
+        first, triangles = last[used], (np.cumsum(used) - 1)[index]
     else:
         first, triangles = _groups(np.concatenate([index[:, None], rows], axis=1))
     return first, triangles.reshape(corners.shape)
@@ -243,9 +241,13 @@ def _groups(rows):
     return first, kind.reshape(-1)
 
 
+def _dot(a, b):
+    return np.einsum("...i,...i->...", a, b)
+
+
 def _unit(vectors):
     """Return vectors of length 1 along the last axis; zero stays zero."""
     largest = np.abs(vectors).max(axis=-1, keepdims=True)
     scaled = vectors / np.where(largest > 0.0, largest, 1.0)
-    length = np.sqrt((scaled * scaled).sum(-1, keepdims=True))
+    length = np.sqrt(_dot(scaled, scaled))[..., None]
     return scaled / np.where(length > 0.0, length, 1.0)

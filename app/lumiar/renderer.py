@@ -12,6 +12,7 @@ from .errors import Mistake, one_line
 from .parameter import TINT
 
 STRIP = 1 << 23  # samples drawn at a time: bounds the memory (180 MB) and the longest wait
+COMMON = 8192  # pixels a side that every driver draws; asking it takes a millisecond
 INSTALL = "install a driver: on Debian or Ubuntu `apt install libegl1 libgl1-mesa-dri`"
 
 
@@ -228,6 +229,8 @@ class Renderer:
         self._targets.clear()
 
     def _check_size(self, width, height, side):
+        if max(width, height) * side <= COMMON:
+            return
         info = self.context.info
         most = min(info["GL_MAX_TEXTURE_SIZE"], *info["GL_MAX_VIEWPORT_DIMS"])
         if max(width, height) * side > most:

@@ -1,6 +1,6 @@
 """The floor: one frame by hand in moderngl, with nothing that it does not need.
 
-python floor.py MESH.bin SIZE SAMPLES OUT.png    (bench.py writes MESH.bin)
+python floor.py MESH SIZE SAMPLES OUT.png    (MESH.bin, as bench.py writes it, or MESH.obj by trimesh)
 Blinn's model, slide form, default values, default lights, on a mesh around the origin.
 """
 import math, mmap, os, struct, sys, zlib
@@ -33,6 +33,17 @@ void main() {
     c = clamp(c / float(SIDE * SIDE), 0.0, 1.0);
     color = vec4(mix(1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, 12.92 * c, lessThanEqual(c, vec3(0.0031308))), 1.0);
 }"""
+
+
+def load(path):
+    if path.endswith(".bin"):
+        with open(path, "rb") as file:
+            return memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
+    import numpy as np, trimesh
+    mesh = trimesh.load(path, process=False)
+    p, n, f = mesh.vertices, mesh.vertex_normals, mesh.faces
+    head = struct.pack("<qd", len(p), float(np.linalg.norm(p - (p.min(0) + p.max(0)) / 2, axis=1).max()))
+    return memoryview(head + np.concatenate([p, n], 1).astype("f4").tobytes() + f.astype("u4").tobytes())
 
 
 class Floor:
@@ -74,9 +85,7 @@ class Floor:
 if __name__ == "__main__":
     path, size, samples, out = sys.argv[1], int(sys.argv[2]), int(sys.argv[3]), sys.argv[4]
     raw = egl.create_context(mode="standalone", libgl="libGL.so.1", libegl="libEGL.so.1", glversion=330)
-    with open(path, "rb") as file:
-        data = memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
-    floor = Floor(moderngl.create_context(context=raw), data, size, math.isqrt(samples))
+    floor = Floor(moderngl.create_context(context=raw), load(path), size, math.isqrt(samples))
     floor.draw()
     rows = floor.out.read(components=3)
     chunk = lambda k, d: struct.pack(">I", len(d)) + k + d + struct.pack(">I", zlib.crc32(k + d))
