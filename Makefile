@@ -1,5 +1,6 @@
 # make demo, make test, make lint: each sets up all that it needs, on a machine with make and
-# Python 3.11 or later. make lock renews the locked dependencies; make clean forgets what was made.
+# Python 3.11 or later. make bench measures the speed; make lock renews the locked dependencies;
+# make clean forgets what was made.
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -8,7 +9,7 @@ PYTHON := $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; 
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 DRAW := $(BIN)/python -c 'from lumiar.renderer import open_context; open_context()'
 
-.PHONY: demo test lint style driver glslang apt lock clean
+.PHONY: demo test lint bench style driver glslang apt lock clean
 
 demo: $(VENV)/run driver
 	@mkdir -p demo
@@ -20,6 +21,9 @@ test: $(VENV)/dev driver glslang style
 
 lint: $(VENV)/dev driver glslang style
 	$(BIN)/python -m pytest tests/test_house.py tests/test_compose.py
+
+bench: $(VENV)/dev driver
+	$(BIN)/python tests/benchmarks/bench.py
 
 style: $(VENV)/dev
 	$(BIN)/ruff check
