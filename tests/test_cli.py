@@ -120,6 +120,22 @@ def test_broken_pixels_are_told_and_strict_is_strict(lumiar, tmp_path):
     lumiar("capture", *SMALL, "--strict")
 
 
+@pytest.mark.parametrize("rate", ["flat", "gouraud", "phong"])
+def test_a_loop_cut_short_is_never_a_silent_picture(lumiar, tmp_path, rate):
+    loop = "int n = 0; for (int i = 0; i < %d; ++i) n += int(V.z > -9.0); return vec3(n == %d);"
+    base = ("capture", "--model", "loop.glsl", *SMALL, "--shading", rate, "-o", "l.npy")
+    (tmp_path / "loop.glsl").write_text(LIMITS % loop % (65000, 65000))
+    assert "steps" not in lumiar(*base).stderr
+    whole = np.load(tmp_path / "l.npy")
+    (tmp_path / "loop.glsl").write_text(LIMITS % loop % (70000, 70000))
+    done = lumiar(*base)
+    found = np.load(tmp_path / "l.npy")
+    if "steps" in done.stderr:  # a software renderer that leaves the loop before its end
+        assert (np.isnan(found).all(-1) == (whole != whole[0, 0]).any(-1)).all()
+    else:
+        np.testing.assert_array_equal(found, whole)
+
+
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [

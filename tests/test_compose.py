@@ -147,6 +147,15 @@ def test_only_the_chosen_rate_evaluates():
         assert {s for s, source in sources.items() if "scatter" in code(source)} == {stage}
 
 
+def test_only_what_loops_is_watched_for_loops_cut_short(tmp_path):
+    body = "vec3 scatter(vec3 L, vec3 V) { %s return vec3(L.z); }\n"
+    for loop, watched in (("for (int i = 0; i < 9; ++i) {}", True), ("/* for */", False)):
+        path = tmp_path / "m.glsl"
+        path.write_text("// model   M\n" + body % loop)
+        for rate, stage in (("flat", "geometry"), ("gouraud", "vertex"), ("phong", "fragment")):
+            assert ("rig_cut_short" in surface(str(path), rate=rate)[stage].text) == watched
+
+
 def test_an_ambient_light_alone_evaluates_no_lobe():
     body = code(surface("phong", ("ambient",))["fragment"])
     assert "surround" in body and "scatter" not in body and "cos_power" not in body

@@ -371,6 +371,11 @@ def test_a_shader_error_names_file_and_line(renderer, tmp_path, body, line, rate
     assert str(told.value).startswith(f"{path}:{line}: the driver does not compile this: ")
 
 
+def test_the_driver_tells_its_name_after_drawing_too(renderer):
+    radiance(lit().set(size=(8, 8)), renderer)
+    assert all(renderer.name.split(", OpenGL "))
+
+
 def test_a_size_beyond_the_driver_is_refused(renderer):
     with pytest.raises(Mistake, match="more than this driver draws"):
         next(renderer.strips(lit().set(size=(16384, 16), samples=4)))

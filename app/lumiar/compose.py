@@ -24,6 +24,8 @@ MAY_INCLUDE = {  # the floors of GLSL: which folders a file of a folder may incl
 MAX_FILES, MAX_DEPTH = 256, 64
 MAX_UNIFORMS, MAX_ARRAY = 1024, 4096  # beyond, a driver's compiler may crash instead of complaining
 
+_LOOP = re.compile(r"\b(?:for|while)\b")
+
 
 class Source(NamedTuple):
     """The GLSL text of one stage; lines[i] is the (file, line) that its line i + 1 came from."""
@@ -51,6 +53,7 @@ def surface(model, lights, rate, constants, two_sided=True, transformed=True):
         "transformed": transformed,
         "tangent": "tangent" in model.needs,
         "surround": bool(kinds["environment"]) and "surround" in model.defines,
+        "looping": False,
     }
     frame = f"lib/frame_{'tangent' if facts['tangent'] else 'normal'}.glsl"
     places = {
@@ -61,10 +64,13 @@ def surface(model, lights, rate, constants, two_sided=True, transformed=True):
         ],
         "FRAME": [_load(frame)],
     }
-    return {
-        stage: _finish(_flatten(f"rigs/{file}", places, kinds, facts))
-        for stage, file in STAGES[rate].items()
-    }
+    sources = {}
+    for stage, file in STAGES[rate].items():
+        sources[stage] = _finish(_flatten(f"rigs/{file}", places, kinds, facts))
+        if _loops(sources[stage]):
+            looping = {**facts, "looping": True}
+            sources[stage] = _finish(_flatten(f"rigs/{file}", places, kinds, looping))
+    return sources
 
 
 def screen(rig, constants):
@@ -209,6 +215,15 @@ def _finish(lines):
             out.append((line.replace("#include", "include"), path, number))
     text = "\n".join(line for line, _, _ in out)
     return Source(text + "\n", tuple((path, number) for _, path, number in out))
+
+
+def _loops(source):
+    """Return whether there is a loop that is not a rig's own."""
+    if not _LOOP.search(source.text):
+        return False
+    rigs = os.path.join(GLSL, "rigs", "")
+    lines = zip(without_comments(source.text).split("\n"), source.lines, strict=False)
+    return any(_LOOP.search(line) for line, (path, _) in lines if not path.startswith(rigs))
 
 
 def _check_limits(lines):

@@ -69,7 +69,9 @@ class Renderer:
     @property
     def name(self):
         """The renderer and the version of its driver, as the driver tells them."""
-        return f"{self.context.info['GL_RENDERER']}, OpenGL {self.context.info['GL_VERSION']}"
+        with self.context:  # another one, or none, may be the current one
+            info = self.context.info
+        return f"{info['GL_RENDERER']}, OpenGL {info['GL_VERSION']}"
 
     def strips(self, scene, linear=False):
         """Yield the picture of a scene as strips of rows, top first: (bytes, broken pixels).
@@ -231,7 +233,8 @@ class Renderer:
     def _check_size(self, width, height, side):
         if max(width, height) * side <= COMMON:
             return
-        info = self.context.info
+        with self.context:
+            info = self.context.info
         most = min(info["GL_MAX_TEXTURE_SIZE"], *info["GL_MAX_VIEWPORT_DIMS"])
         if max(width, height) * side > most:
             raise Mistake(

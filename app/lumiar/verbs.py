@@ -27,10 +27,12 @@ def capture(options):
     from . import picture
     from .renderer import Renderer
 
-    broken = picture.write(scene, path, Renderer(), _language(options.lang), _Progress(path))
+    renderer = Renderer()
+    broken = picture.write(scene, path, renderer, _language(options.lang), _Progress(path))
     print(path)
     if broken:
-        text = f"{broken} pixels have no finite radiance (NaN or infinite); they are magenta"
+        cut = ", or its loops cut short after 65535 steps" * ("llvmpipe" in renderer.name)
+        text = f"{broken} pixels have no finite radiance (NaN or infinite{cut}); they are magenta"
         print(f"lumiar: {path}: {text}", file=sys.stderr)
     return 3 if broken and options.strict else 0
 
