@@ -11,7 +11,8 @@ from lumiar.renderer import Renderer
 
 @pytest.fixture(scope="session", autouse=True)
 def own_cache(tmp_path_factory):
-    """Keep the tests out of the user's cache of prepared meshes."""
+    """Keep the tests out of the user's mesh cache, and the user's habits out of the tests."""
+    os.environ.pop("PYTHONUNBUFFERED", None)
     os.environ["XDG_CACHE_HOME"] = str(tmp_path_factory.mktemp("cache"))
 
 

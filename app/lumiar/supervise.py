@@ -54,10 +54,11 @@ def _be_the_child(job, channel):
     code = 1
     try:
         limit_time(TIMEOUT)
-        code = job()
+        try:
+            code = job()
+        except SystemExit as end:  # argparse ends so
+            code = end.code if isinstance(end.code, int) else 1
         sys.stdout.flush()
-    except SystemExit as end:  # argparse ends so
-        code = end.code if isinstance(end.code, int) else 1
     except BrokenPipeError:  # the reader of our output has gone (`lumiar list | head`)
         pass
     except BaseException:
