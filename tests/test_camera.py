@@ -84,7 +84,7 @@ def test_a_sphere_is_framed_whole(elevation, aspect):
     limit = math.radians(20.0)
     limit = min(limit, math.atan(math.tan(limit) * aspect))
     assert 0.9 * limit < half < limit
-    near, far = camera.clip_planes(eye, target, 0.7)
+    near, far = camera.clip_planes(eye, target, [(target, 0.7)])
     assert 0.0 < near <= math.dist(eye, target) - 0.7 and far >= math.dist(eye, target) + 0.7
 
 

@@ -11,9 +11,9 @@ APP = ROOT / "app" / "lumiar"
 FLOORS = [  # lowest first; a module imports only from floors below its own
     "errors",
     "files",
-    "parameter cache supervise polygons reference camera tomltext driverlog glsltext difference "
-    "image sheet",
-    "catalog mesh",
+    "parameter cache supervise polygons reference_terms camera tomltext driverlog glsltext "
+    "difference contract image sheet",
+    "catalog mesh reference",
     "formats shapes",
     "geometry compose parts",
     "settings layout",

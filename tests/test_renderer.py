@@ -1,7 +1,6 @@
 """The renderer against float64 NumPy, closed forms, and what must never happen silently."""
 
 import math
-import struct
 
 import numpy as np
 import oracle
@@ -38,18 +37,7 @@ def placed(scene, renderer):
 def captured(scene, renderer, program, names):
     """Return what a program sends on from every vertex or face, by transform feedback."""
     spot = placed(scene, renderer)[0]
-    for name, value in {
-        "rig_clip": module._columns(spot.clip, 4),
-        "rig_world": module._columns(spot.world, 4),
-        "rig_turn": module._columns(camera.normal_matrix(spot.world), 3),
-        "rig_eye": struct.pack("3f", *spot.eye),
-        **module._uniforms(spot.object.model, spot.object.values, scene, ""),
-        **{
-            key: value
-            for i, light in enumerate(scene.lights, 1)
-            for key, value in module._uniforms(light.kind, light.values, scene, f"_{i}").items()
-        },
-    }.items():
+    for name, value in layout.uniforms(scene, spot).items():
         if name in program:
             program[name].write(value)
     entry = renderer._mesh(spot.object)

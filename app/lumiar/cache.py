@@ -9,7 +9,7 @@ import time
 from .files import cache_folder, write_whole
 
 LIMIT = 1 << 30  # bytes; the oldest entries go when the cache grows beyond
-_MAGIC = b"LUMIAR\x00\x02"
+_MAGIC = b"LUMIAR\x00\x03"
 _SIZES = struct.Struct("=8s8Q")
 
 
@@ -21,8 +21,8 @@ def get(key):
         magic, *sizes = _SIZES.unpack_from(view)
         starts = [_SIZES.size + sum(sizes[:i]) for i in range(len(sizes))]
         own, *parts = (view[a : a + size] for a, size in zip(starts, sizes, strict=True))
-        whole = magic == _MAGIC == view[starts[-1] + sizes[-1] :]  # the closing mark comes last
-        if whole and own == repr(key).encode():
+        end = starts[-1] + sizes[-1]
+        if magic == _MAGIC and own == repr(key).encode() and view[end:] == _check(view[:end]):
             return parts
     return None
 
@@ -34,7 +34,8 @@ def put(key, parts):
     with contextlib.suppress(OSError):
         os.makedirs(os.path.dirname(path), exist_ok=True)
         _make_room(os.path.dirname(path))
-        write_whole(path, (_SIZES.pack(_MAGIC, *map(len, parts)), *parts, _MAGIC))
+        parts.insert(0, _SIZES.pack(_MAGIC, *map(len, parts)))
+        write_whole(path, (*parts, _check(*parts)))
 
 
 def fingerprint(data):
@@ -46,6 +47,16 @@ def fingerprint(data):
     from isal import isal_zlib
 
     return f"{len(data):x}-{isal_zlib.crc32(data):08x}{isal_zlib.adler32(data):08x}"
+
+
+def _check(*parts):
+    """Return the 4 bytes behind an entry, by which it is known to be whole: its CRC-32."""
+    from isal import isal_zlib
+
+    crc = 0
+    for part in parts:
+        crc = isal_zlib.crc32(part, crc)
+    return crc.to_bytes(4, "little")
 
 
 def _path(key):

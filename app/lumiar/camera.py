@@ -38,9 +38,9 @@ def placement(position, rotation, scale):
 
 
 def normal_matrix(m):
-    """Return the 9 values, row by row, of the inverse transpose of m's 3x3 part, times |det|.
+    """Return the 9 values, row by row, of the inverse transpose of m's 3x3 part, the largest 1.
 
-    The factor changes no direction, and keeps a flattening scale from dividing by zero.
+    The factor changes no direction, and keeps any scale within the range of a float.
     """
     a, b, c, _, d, e, f, _, g, h, i = m[:11]
     cofactors = (
@@ -48,8 +48,16 @@ def normal_matrix(m):
         (c * h - b * i, a * i - c * g, b * g - a * h),
         (b * f - c * e, c * d - a * f, a * e - b * d),
     )
-    sign = -1.0 if mirrors(m) else 1.0
-    return tuple(sign * value for row in cofactors for value in row)
+    values = [value for row in cofactors for value in row]
+    largest = max(map(abs, values)) or 1.0
+    return tuple(value / (-largest if mirrors(m) else largest) for value in values)
+
+
+def linear_part(m):
+    """Return the 9 values, row by row, of m's 3x3 part, scaled so that the largest is 1."""
+    values = (*m[0:3], *m[4:7], *m[8:11])
+    largest = max(map(abs, values)) or 1.0
+    return tuple(value / largest for value in values)
 
 
 def mirrors(m):
@@ -104,11 +112,19 @@ def viewpoint(camera, aspect, centre, radius):
     return tuple(t + distance * a for t, a in zip(target, away, strict=True)), target
 
 
-def clip_planes(eye, centre, radius):
-    """Return (near, far) distances that hold a sphere of the scene and keep the depth fine."""
-    distance = math.dist(eye, centre)
-    far = distance + 1.01 * radius
-    return max(distance - 1.01 * radius, 1e-3 * far), far
+def clip_planes(eye, target, spheres):
+    """Return (near, far) distances that hold all (centre, radius) spheres and keep the depth fine.
+
+    Near stands before the nearest sphere, or, where the eye is within one, at a hundredth of the
+    distance to the target; never below 1e-6 of far, where 24 bits of depth tell nothing apart.
+    """
+    distances = [(math.dist(eye, centre), 1.01 * radius) for centre, radius in spheres]
+    far = max(distance + radius for distance, radius in distances)
+    near = min(
+        distance - radius if distance > radius else 0.01 * math.dist(eye, target)
+        for distance, radius in distances
+    )
+    return min(max(near, 1e-6 * far), 0.999 * far), far
 
 
 def _minus(a, b):

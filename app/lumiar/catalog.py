@@ -4,6 +4,7 @@ import os
 import re
 from typing import NamedTuple
 
+from . import contract
 from .errors import Mistake, nearest
 from .files import GLSL, read_text
 from .glsltext import without_comments
@@ -14,17 +15,29 @@ CLAIMS = ("positive", "reciprocal", "conserving")
 NEEDS = ("tangent",)  # what a file may ask of the rig beyond the normal
 FOLDERS = {"model": "models", "light": "lights"}
 DEFINES = {
-    "model": {"scatter": "vec3 scatter(vec3 L, vec3 V)"},
+    "model": {"scatter": "vec3 scatter(vec3 L, vec3 V)", "surround": "vec3 surround(vec3 V)"},
     "light": {
         "light": "Incident light(vec3 position, vec2 u)",
         "environment": "vec3 environment(vec3 direction)",
     },
 }
+REQUIRED = {"model": ("scatter",), "light": ("light", "environment")}  # one of these
 OWN_KEYS = {  # scene keys of an object or a light, which no parameter may take over
     "model": ("mesh", "model", "name", "position", "rotation", "scale", "fit", "crease"),
     "light": ("kind", "name"),
 }
-_FUNCTION = re.compile(r"^[ \t]*\w+[ \t]+(\w+)[ \t]*\(", re.MULTILINE)
+SCENE_KEYS = (  # of the scene itself, which no parameter may take over either
+    "size",
+    "samples",
+    "shading",
+    "background",
+    "exposure",
+    "tone",
+    "time",
+    "lang",
+    "columns",
+)
+_UNIFORM = re.compile(r"\buniform\b")
 
 
 class Shader(NamedTuple):
@@ -70,7 +83,7 @@ def read(kind, name, where="", folder=""):
     beginning with `where` when there is no such file, and naming file:line when the file breaks the
     contract of glsl/README.md.
     """
-    if name.endswith((".glsl", ".frag")):
+    if name.endswith(".frag" if kind == "rig" else ".glsl"):
         path = name = os.path.abspath(os.path.join(folder, os.path.expanduser(name)))
         if not os.path.exists(path):
             raise Mistake(f"{where}no file {path}; name a GLSL file, or one of {names(kind)}")
@@ -85,24 +98,32 @@ def read(kind, name, where="", folder=""):
 
 def parse(kind, name, path, text):
     """Return the Shader for a text; see `read`."""
+    contract.check_comments(text, path)
     code, lines = without_comments(text), text.split("\n")
     parameters = {}
     for number, bare in enumerate(code.split("\n"), 1):
-        if not bare.lstrip().startswith("uniform") or (kind == "rig" and "rig_" in bare):
+        if not _UNIFORM.search(bare) or (kind == "rig" and "rig_" in bare):
             continue  # what the rigs themselves set is no parameter
         parameter = parse_uniform(lines[number - 1], number, path)
         if parameter.name in parameters:
             raise Mistake(f"{path}:{number}: '{parameter.name}' is declared twice; keep one line")
-        if parameter.name in OWN_KEYS.get(kind, ()):
+        if kind != "rig" and parameter.name in (*OWN_KEYS[kind], *SCENE_KEYS):
             raise Mistake(f"{path}:{number}: '{parameter.name}' is a key of scenes; rename it")
         parameters[parameter.name] = parameter
-    if any(parameter.tinted for parameter in parameters.values()):
+    tinted = any(parameter.tinted for parameter in parameters.values())
+    if tinted and TINT in parameters:
+        where = f"{path}:{parameters[TINT].line}: "
+        raise Mistake(
+            f"{where}'{TINT}' comes with what is tinted; leave this line out, or rename it"
+        )
+    if tinted:
         what = "colour of the light" if kind == "light" else "colour of what is tinted"
         parameters[TINT] = Parameter(TINT, "vec3", (1.0, 1.0, 1.0), "color", 0.0, 1.0, text=what)
-    defines = frozenset(_FUNCTION.findall(code))
     wanted = DEFINES.get(kind)
-    if wanted and not defines.intersection(wanted):
-        raise Mistake(f"{path}:1: a {kind} must define {' or '.join(wanted.values())}")
+    defines = contract.check(code, path, wanted) if wanted else frozenset()
+    if wanted and not defines.intersection(REQUIRED[kind]):
+        either = " or ".join(wanted[name] for name in REQUIRED[kind])
+        raise Mistake(f"{path}:1: a {kind} must define {either}")
     header, places = _header(lines)
     needs = tuple(header.get("needs", "").replace(",", " ").split())
     for word in needs:

@@ -20,13 +20,16 @@ what was given; 3 broken pixels under --strict; 130 and 143 interrupted and term
 def main():
     """Run the command line in a supervised child, and end this process with its exit code."""
     import gc
+    import signal
 
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while all is still being imported
     from .supervise import supervised
 
     gc.disable()  # a short life makes little garbage, and looking for it takes milliseconds
+    for stream in (sys.stdout, sys.stderr):
+        if stream is not None:  # closed by whoever started us
+            stream.reconfigure(errors="backslashreplace")  # whatever the terminal can show
     code = supervised(lambda: run(sys.argv[1:]))
-    sys.stdout.flush()
-    sys.stderr.flush()
     os._exit(code)  # leaves out the interpreter's tidying-up
 
 
@@ -49,6 +52,8 @@ def run(argv):
     except MemoryError:
         print("lumiar: not enough memory; draw a smaller picture or mesh", file=sys.stderr)
         return 1
+    except Exception as error:
+        return _own_fault(error)
 
 
 def _dispatch(argv):
@@ -67,6 +72,19 @@ def _dispatch(argv):
     from . import options, verbs
 
     return getattr(verbs, argv[0])(options.parse(argv[0], argv[1:]))
+
+
+def _own_fault(error):
+    """Tell of a mistake of ours, in one line with the place where it showed."""
+    import traceback
+
+    from .errors import one_line
+
+    frame = traceback.extract_tb(error.__traceback__)[-1]
+    place = f"{os.path.basename(frame.filename)}:{frame.lineno}"
+    said = one_line(f"{type(error).__name__}: {error}")
+    print(f"lumiar: a fault of Lumiar's own, at {place}: {said}; please report it", file=sys.stderr)
+    return 1
 
 
 def _shortened(message):

@@ -24,6 +24,7 @@ MAY_INCLUDE = {  # the floors of GLSL: which folders a file of a folder may incl
 MAX_FILES, MAX_DEPTH = 256, 64
 MAX_UNIFORMS, MAX_ARRAY = 1024, 4096  # beyond, a driver's compiler may crash instead of complaining
 
+_MACRO = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)", re.MULTILINE)
 _LOOP = re.compile(r"\b(?:for|while)\b")
 
 
@@ -113,13 +114,17 @@ def _fixed(shader, constants, suffix=""):
 def _renamed(light, index, constants):
     """Return the text of light number `index`, all that it declares with `_index` appended."""
     text = _fixed(light, constants, f"_{index}")
-    declared = {name for chunk in chunks(without_comments(text)) for name in chunk.names}
+    bare = without_comments(text)
+    declared = {name for chunk in chunks(bare) for name in chunk.names} | set(_MACRO.findall(bare))
     pattern = re.compile(rf"(?<![.\w])({'|'.join(sorted(declared))})\b")
-    lines = []
+    field = re.compile(pattern.pattern + r"(?!\s*[][;,])")  # in a struct: types, not fields
+    lines, in_struct = [], False
     for line in text.split("\n"):
         code, slashes, comment = line.partition("//")
+        in_struct = in_struct or re.search(r"\bstruct\b", code) is not None
         if included(code) is None:
-            code = pattern.sub(rf"\1_{index}", code)
+            code = (field if in_struct else pattern).sub(rf"\1_{index}", code)
+        in_struct = in_struct and "}" not in code
         lines.append(code + slashes + comment)
     return "\n".join(lines)
 
@@ -145,7 +150,7 @@ def _flatten(start, places, repeats, facts):
     def include(name, where, folder, chain):
         if not name:
             raise Mistake(f'{where}write #include "lib/….glsl", the name in double quotes')
-        if name in places:
+        if folder == "rigs" and name in places:
             for path, kind, text in places[name]:
                 add(path, kind, text, (*chain, path))
             return

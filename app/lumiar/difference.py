@@ -30,17 +30,20 @@ def flip(a, b, linear):
     """Return the mean FLIP error of picture b against reference a, in [0, 1].
 
     P. Andersson et al., "FLIP: a difference evaluator for alternating images", HPG 2020; for linear
-    radiance HDR-FLIP, 2021. Raises ImportError where its package has no build for this Python.
+    radiance HDR-FLIP, 2021. None where it is not defined: HDR-FLIP of a black reference. Raises
+    ImportError where its package has no build for this Python.
     """
     import flip_evaluator
 
     if linear:
-        a, b = np.maximum(np.nan_to_num(a), 0.0), np.maximum(np.nan_to_num(b), 0.0)
+        a, b = (np.maximum(np.nan_to_num(one, posinf=0.0, neginf=0.0), 0.0) for one in (a, b))
+    if np.array_equal(a, b):
+        return 0.0
+    if linear and not a.any():
+        return None  # the package would end the whole process
     kind = "HDR" if linear else "LDR"
-    _, mean, _ = flip_evaluator.evaluate(
-        np.ascontiguousarray(a), np.ascontiguousarray(b), kind, applyMagma=False
-    )
-    return float(mean)
+    images = (np.ascontiguousarray(a), np.ascontiguousarray(b))
+    return float(flip_evaluator.evaluate(*images, kind, applyMagma=False)[1])
 
 
 def picture(a, b):

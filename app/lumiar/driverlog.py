@@ -26,4 +26,16 @@ def locate(log, sources):
         if 1 <= number <= len(lines) and lines[number - 1][0]:
             return (*lines[number - 1], message)
     told = [line.strip() for line in log.splitlines() if line.strip(" =")]
-    return "", 0, told[-1] if told else "the driver gives no reason"
+    message = re.sub(r"^[\d:()]+\s*error\s*:\s*", "", told[-1]) if told else ""
+    for name in re.findall(r"[`'\"](\w+)", message):  # recursion, say, comes without a line
+        for place in _named(name, sources):
+            return (*place, message)
+    return "", 0, message or "the driver gives no reason"
+
+
+def _named(name, sources):
+    """Yield (file, line) of each line that names a function, the last stage first."""
+    for source in reversed(sources.values()):
+        for text, place in zip(source.text.split("\n"), source.lines, strict=False):
+            if place[0] and re.search(rf"\w\s+{name}\s*\(", text):
+                yield place

@@ -2,7 +2,6 @@
 
 import contextlib
 import os
-import re
 import struct
 import sys
 from typing import NamedTuple
@@ -14,6 +13,7 @@ from .parameter import Parameter
 
 FORMATS = (".obj", ".ply", ".stl", ".off", ".glb", ".gltf")
 FILE_LIMIT = 512 << 20  # bytes of a mesh file
+TINY = 1e-18  # radius of a mesh whose squares still are normal floats
 _FACTS = struct.Struct("=10dQ?")  # low, high, centre, radius; places; closed
 
 
@@ -177,7 +177,7 @@ def read_mesh(shape, values, path, data, crease):
 
     if shape:
         return shapes.make(shape, values)
-    return mesh.build(formats.parse(bytes(data), path), crease, path)
+    return mesh.build(mesh.brought_near(formats.parse(bytes(data), path)), crease, path)
 
 
 def prepare(mesh, tangents, name):
@@ -194,6 +194,8 @@ def prepare(mesh, tangents, name):
     low, high = p.min(0), p.max(0)
     centre = (low + high) / 2.0
     radius = float(np.sqrt(((p - centre) ** 2).sum(1).max()))
+    if radius < TINY:
+        raise Mistake(f"{name}: smaller than {TINY:g}, the least a 32-bit float resolves; scale up")
     return Geometry(
         vertices.tobytes(),
         along,
@@ -208,14 +210,29 @@ def prepare(mesh, tangents, name):
 def file_parts(path, data):
     """Return the bytes that a mesh file consists of: its own, and those of the buffers it names."""
     parts = [data]
-    if path.lower().endswith(".gltf"):
+    if path.lower().endswith((".gltf", ".glb")):
         from urllib.parse import unquote
 
-        for uri in re.findall(rb'"uri"\s*:\s*"([^"]{1,1000})"', data):
+        for uri in _buffers(path, data):
             with contextlib.suppress(Mistake):  # the reader will tell what is wrong with it
-                name = unquote(uri.decode("utf-8", "surrogateescape"), errors="surrogateescape")
+                name = unquote(uri, errors="surrogateescape")
                 parts.append(read_beside(path, name, FILE_LIMIT, "a buffer"))
     return parts
+
+
+def _buffers(path, data):
+    """Return the addresses of the buffers that a glTF file names; none where it is damaged."""
+    import json
+
+    text = bytes(data)
+    if path.lower().endswith(".glb"):
+        text = text[20 : 20 + int.from_bytes(text[12:16], "little")]
+    try:
+        buffers = json.loads(text.decode("utf-8-sig"))["buffers"]
+        uris = [buffer.get("uri") for buffer in buffers]
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        return []
+    return [uri for uri in uris if isinstance(uri, str) and not uri.startswith("data:")]
 
 
 def _code_version():
@@ -224,4 +241,5 @@ def _code_version():
     folder = os.path.join(here, "formats")
     files = [os.path.join(folder, f) for f in sorted(os.listdir(folder)) if f.endswith(".py")]
     files += [os.path.join(here, f"{f}.py") for f in ("geometry", "mesh", "polygons", "shapes")]
+    files.append(os.path.join(ASSETS, "meshes", "teapot.patches"))
     return [(status.st_size, status.st_mtime_ns) for status in map(os.stat, files)]

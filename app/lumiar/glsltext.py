@@ -51,7 +51,8 @@ def chunks(text):
         if not directive:
             for bracket in _BRACKET.findall(bare):
                 depth += 1 if bracket in "({[" else -1
-        complete = directive or not bare or bare[-1] in ";}"
+        fresh = first == i or not "".join(lines[first:i]).strip()
+        complete = directive or (not bare and fresh) or bare[-1:] in (";", "}")
         if (depth == 0 and complete and not continued) or i == len(lines) - 1:
             code = "\n".join(lines[first : i + 1]) if i > first else bare
             words = set(_WORD.findall(code)) if code else set()
@@ -67,8 +68,8 @@ def _declared(code, words):
     start = _WORD.findall(head.partition("(")[0])
     if "#" in code or not _ALWAYS.isdisjoint(start):
         return set(), True
-    if "struct" in words:
-        return set(re.findall(r"\bstruct\s+(\w+)", code)), False
+    if "struct" in words:  # its name, and that of a variable of it right behind
+        return set(re.findall(r"(?:\bstruct|\})\s+(\w+)", code)), False
     if brace:
         return set(start[-1:]), _holds_several(body)
     while "(" in head and head != (head := re.sub(r"\([^()]*\)", "", head)):

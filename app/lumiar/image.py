@@ -93,11 +93,14 @@ def read(path):
             pixels = _read_hdr(data)
         else:
             pixels = _read_display(data, path)
+    except (EOFError, AttributeError, MemoryError):  # what numpy says of a broken .npy
+        raise Mistake(f"{path}: not a picture that can be read: damaged, or none at all") from None
     except (ValueError, IndexError, SyntaxError, struct.error, zlib.error, OSError) as error:
         raise Mistake(f"{path}: not a picture that can be read: {error}") from None
     if pixels.ndim != 3 or pixels.shape[2] != 3:
         raise Mistake(f"{path}: shape {pixels.shape}; a picture is (height, width, 3)")
-    return pixels.astype(np.float32), kind in (".npy", ".hdr")
+    with np.errstate(over="ignore"):  # beyond float32 is infinite, and told as such
+        return pixels.astype(np.float32), kind in (".npy", ".hdr")
 
 
 def _chunk(kind, contents):
@@ -167,15 +170,20 @@ def _read_display(data, path):
     import warnings
 
     import numpy as np
-    from PIL import Image
+    from PIL import Image, UnidentifiedImageError
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", Image.DecompressionBombWarning)
         try:
             picture = Image.open(io.BytesIO(data), formats=["PNG", "JPEG"])
+        except UnidentifiedImageError:
+            raise ValueError("neither PNG nor JPEG, .hdr nor .npy") from None
         except Image.DecompressionBombError:
             raise ValueError(f"more than {PIXEL_LIMIT} pixels") from None
         if picture.width * picture.height > PIXEL_LIMIT:
             size = f"{picture.width} x {picture.height}"
             raise Mistake(f"{path}: {size} pixels; allowed: up to {PIXEL_LIMIT} in all")
+        if picture.mode.startswith("I"):  # 16 bits of grey, which Pillow would cut off at 255
+            grey = np.asarray(picture, np.float32) / 65535.0
+            return np.repeat(grey[..., None], 3, axis=2)
         return np.asarray(picture.convert("RGB"), np.float32) / 255.0

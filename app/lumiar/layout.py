@@ -1,10 +1,13 @@
 """Where everything in a scene stands, and what each object needs compiled. Draws nothing."""
 
 import math
+import struct
 from typing import NamedTuple
 
 from . import camera, compose
+from .errors import Mistake
 from .geometry import Geometry
+from .parameter import TINT
 from .parts import Object
 
 
@@ -39,7 +42,9 @@ def arrange(scene, geometries):
     centre, radius = camera.enclosing(spheres)
     aspect = scene.size[0] / scene.size[1]
     eye, target = camera.viewpoint(scene.camera, aspect, centre, radius)
-    lens = camera.perspective(scene.camera.fov, aspect, *camera.clip_planes(eye, centre, radius))
+    if eye == target:
+        raise Mistake(f"camera.position = {eye} is also its target; move one of them")
+    lens = camera.perspective(scene.camera.fov, aspect, *camera.clip_planes(eye, target, spheres))
     view = camera.product(lens, camera.look_at(eye, target, scene.camera.up))
     placed = []
     for one, mesh, world, (middle, extent) in zip(
@@ -71,6 +76,21 @@ def sources(scene, placed):
     )
 
 
+def uniforms(scene, placed):
+    """Return {name: bytes} of what is set while running, as float32 and int32, for an object."""
+    values = {
+        "rig_clip": _columns(placed.clip, 4),
+        "rig_world": _columns(placed.world, 4),
+        "rig_turn": _columns(camera.normal_matrix(placed.world), 3),
+        "rig_lead": _columns(camera.linear_part(placed.world), 3),
+        "rig_eye": struct.pack("3f", *placed.eye),
+        **_packed(placed.object.model, placed.object.values, scene.time, ""),
+    }
+    for i, light in enumerate(scene.lights, 1):
+        values.update(_packed(light.kind, light.values, scene.time, f"_{i}"))
+    return values
+
+
 def _world(one, mesh):
     matrix = camera.placement(one.position, one.rotation, one.scale)
     if not one.fit:
@@ -84,3 +104,28 @@ def _sphere(one, mesh, world):
     """Return (centre, radius) of a sphere around a placed mesh."""
     radius = (one.fit or mesh.radius) * max(map(abs, one.scale))
     return camera.point(world, mesh.centre), radius or 1e-6
+
+
+def _columns(matrix, n):
+    """Return the bytes of an n x n matrix as OpenGL wants them, column by column."""
+    return struct.pack(f"{n * n}f", *(matrix[n * i + j] for j in range(n) for i in range(n)))
+
+
+def _packed(shader, values, time, suffix):
+    """Return {name: bytes} of the parameters that are set while running."""
+    packed = {}
+    for parameter in shader.parameters:
+        if parameter.constant:
+            continue
+        value = time if parameter.widget == "time" else values[parameter.name]
+        if parameter.degrees:
+            value = math.radians(value)
+        if parameter.widget == "direction":
+            length = math.hypot(*value)
+            value = [v / length for v in value]
+        if parameter.tinted:
+            value = [value * channel for channel in values[TINT]]
+        numbers = value if isinstance(value, (tuple, list)) else (value,)
+        form = "i" if parameter.type == "int" else "f"
+        packed[parameter.name + suffix] = struct.pack(f"{len(numbers)}{form}", *numbers)
+    return packed

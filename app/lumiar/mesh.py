@@ -4,7 +4,7 @@ Gives up on: textures (only their coordinates count, for tangents) and faces wou
 neighbours (the mesh then counts as open, and both its sides are lit).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,6 +21,7 @@ __all__ = [
     "tangent_frames",
     "weld",
 ]
+FAR = 1000.0  # sizes from the origin; there the steps of a float are 6e-5 of the size
 CREASE = 60.0  # degrees between two faces beyond which the edge between them stays sharp
 MAX_PAIRS = 1 << 22  # pairs of faces around vertices that are compared at a time
 
@@ -65,21 +66,28 @@ def build(polygons, crease=None, name="mesh"):
     normals = _own_normals(polygons, corner) if crease is None else None
     p = polygons.positions[polygons.corners[corner]]
     face = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
-    closed = is_closed(at)
-    against = False
+    closed, turn = False, np.zeros(len(at), bool)
+    if is_closed(at):  # a solid tells by its volume
+        inward = _volumes(p, at, face) < 0.0
+        closed = bool(inward.all() or not inward.any())  # or a shell within another: lit as open
+        turn |= closed and inward.any()
     if normals is not None:
         agreement = _dot(face, normals.sum(1))
         against = np.count_nonzero(agreement < 0) > np.count_nonzero(agreement > 0)
-    turn = against
-    if closed:  # a solid tells by its volume
-        turn = _dot(p[:, 0] - p[:, 0].mean(0), face).sum() < 0.0
-    if turn:
-        notes.append("faces turned to the outside")
-        corner, at, p, face = corner[:, ::-1], at[:, ::-1], p[:, ::-1], -face
-        normals = normals[:, ::-1] if normals is not None else None
-    if normals is not None and against != turn:
-        notes.append("normals turned to the outside")
-        normals = -normals
+        if closed and against != turn[0]:
+            notes.append("normals turned to the outside")
+            normals = -normals
+        elif not closed:  # each face as its own normals say
+            turn = agreement < 0.0
+    if turn.any():
+        whole = "" if turn.all() else f"{np.count_nonzero(turn)} "
+        notes.append(f"{whole}faces turned to the outside")
+        corner, at, p = (
+            np.where(turn.reshape(-1, *[1] * (a.ndim - 1)), a[:, ::-1], a) for a in (corner, at, p)
+        )
+        face = np.where(turn[:, None], -face, face)
+        if normals is not None:
+            normals = np.where(turn[:, None, None], normals[:, ::-1], normals)
     if normals is None:
         normals = corner_normals(p, at, face, CREASE if crease is None else crease)
     elif (missing := _dot(normals, normals) == 0.0).any():
@@ -94,6 +102,23 @@ def build(polygons, crease=None, name="mesh"):
     return Mesh(p, normals, triangles, closed, uvs, notes=tuple(notes))
 
 
+def brought_near(polygons):
+    """Return Polygons, moved to the origin with a note of it if they lie too far from it.
+
+    Surveys lie there: at FAR times its size away a mesh of 32-bit floats shows their steps.
+    """
+    p = polygons.positions[np.isfinite(polygons.positions).all(axis=1)]
+    if not len(p):
+        return polygons
+    low, high = p.min(0), p.max(0)
+    centre, size = (low + high) / 2.0, (high - low).max()
+    if np.abs(centre).max() <= FAR * size or size == 0.0:
+        return polygons
+    moved = ", ".join(f"{-c:g}" for c in centre)
+    note = f"moved by ({moved}) to the origin, far from which 32-bit floats cannot hold it"
+    return replace(polygons, positions=polygons.positions - centre, notes=(*polygons.notes, note))
+
+
 def weld(positions):
     """Return (V,) int64: the number of the place of each position; equal positions share one."""
     return _groups(positions)[1]
@@ -105,6 +130,20 @@ def is_closed(triangles):
     count = int(triangles.max()) + 1
     forth, back = np.sort((a * count + b).ravel()), np.sort((b * count + a).ravel())
     return bool((forth == back).all() and (forth[1:] != forth[:-1]).all())
+
+
+def _volumes(p, at, face):
+    """Return six times the volume of each connected part of a closed mesh, (parts,)."""
+    label = np.arange(int(at.max()) + 1)
+    while True:  # every place takes the lowest label around it, and that one's own
+        lower = label.copy()
+        np.minimum.at(lower, at.ravel(), np.repeat(label[at].min(axis=1), 3))
+        lower = lower[lower]
+        if (lower == label).all():
+            break
+        label = lower
+    parts = np.unique(label[at[:, 0]], return_inverse=True)[1].reshape(-1)
+    return np.bincount(parts, _dot(p[:, 0] - p.reshape(-1, 3).mean(0), face))
 
 
 def corner_normals(p, at, face, crease):
@@ -154,13 +193,15 @@ def tangent_frames(mesh):
         u = _unit(turn * (e1 * d2[:, 1:] - e2 * d1[:, 1:]))
         v = _unit(turn * (e2 * d1[:, :1] - e1 * d2[:, :1]))
         corners = mesh.triangles.ravel()
+        known = np.isfinite(t).all(axis=(1, 2))[:, None]  # no texture coordinates here
+        u, v = np.where(known, u, 0.0), np.where(known, v, 0.0)
         u, v = (
             np.stack([np.bincount(corners, c, count) for c in np.repeat(w, 3, axis=0).T], axis=1)
             for w in (u, v)
         )
         along = u - normals * (normals * u).sum(1, keepdims=True)
         sign = np.where((np.cross(normals, along) * v).sum(1) < 0.0, -1.0, 1.0)
-    lost = np.linalg.norm(along, axis=1) < 1e-6
+    lost = ~(np.linalg.norm(along, axis=1) >= 1e-6)
     around = np.stack([normals[:, 2], np.zeros(count), -normals[:, 0]], axis=1)
     around[np.linalg.norm(around, axis=1) < 1e-6] = [1.0, 0.0, 0.0]
     around -= normals * (normals * around).sum(1, keepdims=True)

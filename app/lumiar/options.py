@@ -38,15 +38,19 @@ def parse(verb, argv):
 
 def scene(options):
     """Return the Scene that the options of `capture` or `source` describe."""
-    from . import settings
+    from . import scenefile, settings
     from .scene import Scene
 
     here = os.getcwd()
     one = Scene.load(options.scene, here) if options.scene else Scene.default()
+    _check_sheet(one, options)
     for key in ("model", "mesh", "shading"):
         value = getattr(options, key)
         if value is not None:
             one = one.changed(key, value, f"--{key}: ", here)
+    most = scenefile.SECTIONS["light"]
+    if options.light and len(options.light) > most:
+        raise Mistake(f"--light: {len(options.light)} lights; allowed: up to {most}")
     if options.light:
         lights = (settings.light(spec, "--light: ", here) for spec in options.light)
         one = one._replace(lights=tuple(lights))
@@ -57,6 +61,16 @@ def scene(options):
             raise Mistake(f"--set {setting}: write --set key=value")
         pairs.append((key.strip(), value))
     return settings.all_changed(one, pairs, "--set: ", here)
+
+
+def _check_sheet(one, options):
+    """Refuse options that a sheet of other scenes would silently ignore."""
+    others = [os.path.basename(panel.scene) for panel in one.panels if panel.scene]
+    keys = ("model", "mesh", "shading", "light", "set", "size", "samples", "vary")
+    given = [key for key in keys if getattr(options, key, None)]
+    if others and given:
+        advice = f"draw one of them: {', '.join(others)}"
+        raise Mistake(f"--{given[0]}: {options.scene} is a sheet of other scenes; {advice}")
 
 
 def varied(one, varies, sized):
@@ -70,7 +84,7 @@ def varied(one, varies, sized):
     panels = [()]
     for text in varies:
         key, _, values = text.partition("=")
-        values = [v.strip() for v in re.findall(r"\[[^\]]*\]|[^,\[\]]+", values) if v.strip()]
+        values = [v.strip() for v in re.findall(r"(?:\[[^\]]*\]|[^,\[\]])+", values) if v.strip()]
         if not values:
             raise Mistake(f"--vary {text}: write --vary key=one,other; vectors as [1,0,0]")
         if len(panels) * len(values) > 256:
@@ -176,6 +190,7 @@ def _compare(parser):
     ):
         parser.add_argument(f"--max-{name}", type=_limit, metavar="X", help=f"highest {text}")
     parser.add_argument("--json", action="store_true", help="for programs")
+    _timeout(parser)
 
 
 def _list(parser):

@@ -13,6 +13,7 @@ TINT = "color"  # the parameter that colours the tinted ones of a file
 _WORDS = {"log", "degrees", "tinted"}
 _APART = str.maketrans(",x", "  ")
 _LARGEST = 1e30  # beyond this, squares and products leave the range of a 32-bit float
+_LARGEST_INT = 2**31 - 1
 _UNIFORM = re.compile(r"\s*uniform\s+(\w+)\s+(\w+)\s*(?:=\s*([^;]*\S)\s*)?;\s*(?://\s*(.*?)\s*)?$")
 
 
@@ -77,8 +78,9 @@ class Parameter(NamedTuple):
         size = SIZES[self.type]
         values = value if isinstance(value, (list, tuple)) else [value] * size
         whole = self.type in ("int", "ivec2")
-        low = -_LARGEST if self.open[0] else max(self.low, -_LARGEST)
-        high = _LARGEST if self.open[1] else min(self.high, _LARGEST)
+        largest = _LARGEST_INT if whole else _LARGEST
+        low = -largest if self.open[0] else max(self.low, -largest)
+        high = largest if self.open[1] else min(self.high, largest)
         good = len(values) == size and all(
             isinstance(v, (int, float)) and not isinstance(v, bool) and low <= v <= high
             for v in values

@@ -86,6 +86,7 @@ SCENE = _table(
     _numbers("exposure", "float", 0.0, -20, 20, "EV", "factor 2^EV on the radiance"),
     _choice("tone", TONES, "none", "tone curve after the exposure"),
     _numbers("time", "float", 0.0, 0, 60, "s", "for models that change with it", (True, True)),
+    _choice("lang", ("system", "en", "pt"), "system", "language of a sheet's captions"),
     _numbers("columns", "int", 0, 0, 64, "", "panels in a row of a sheet; 0 chooses"),
 )
 CAMERA = _table(

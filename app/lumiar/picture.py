@@ -34,31 +34,33 @@ class Picture(NamedTuple):
         files.write_whole(path, [self._repr_png_()])
 
 
-def capture(scene, path=None, renderer=None, lang="en", progress=None):
+def capture(scene, path=None, renderer=None, progress=None):
     """Return the Picture of a Scene, and write it to `path` if given.
 
     path ends in .png, or in .hdr or .npy for linear radiance [W m^-2 sr^-1]. A renderer of one's
-    own saves opening one for every call. lang is the language of a sheet's captions; progress is
-    called with the share done. Raises Mistake; OSError when the disk refuses.
+    own saves opening one for every call. progress is called with the share done. Raises
+    Mistake; OSError when the disk refuses.
     """
     if renderer is None:
         with Renderer() as renderer:
-            return capture(scene, path, renderer, lang, progress)
+            return capture(scene, path, renderer, progress)
     folder = os.path.dirname(os.path.abspath(path)) if path else os.getcwd()
     if path and image.ending(path) != ".png":
-        write(scene, path, renderer, lang, progress)
+        write(scene, path, renderer, progress)
         path = None
     if scene.panels:
-        size, pixels, broken = _sheet(scene, renderer, lang, progress)
+        if scene.lang == "system":
+            scene = scene._replace(lang=scenefile.system_language())
+        size, pixels, broken = _sheet(scene, renderer, scene.lang, progress)
     else:
-        size, pixels, broken = _drawn(scene, renderer)
+        size, pixels, broken = _drawn(scene, renderer, progress)
     picture = Picture(size, pixels, broken, scene.toml(folder))
     if path:
         picture.save(path)
     return picture
 
 
-def write(scene, path, renderer, lang="en", progress=None):
+def write(scene, path, renderer, progress=None):
     """Write the picture of a Scene to `path` and return the number of broken pixels.
 
     As `capture`, but strip by strip, so that the memory does not grow with the picture.
@@ -67,11 +69,9 @@ def write(scene, path, renderer, lang="en", progress=None):
     if scene.panels:
         if kind != ".png":
             raise Mistake(f"{path}: a sheet of several pictures has no radiance; write a .png")
-        return capture(scene, path, renderer, lang, progress).broken
+        return capture(scene, path, renderer, progress).broken
     faults = []
-    total = 3 * scene.size[0] * scene.size[1] * (1 if kind == ".png" else 4)
-    strips = renderer.strips(scene, linear=kind != ".png")
-    strips = _counting(strips, faults, lambda done: progress and progress(done / total))
+    strips = _counted(scene, renderer, faults, progress, linear=kind != ".png")
     if kind == ".png":
         text = scene.toml(os.path.dirname(os.path.abspath(path)))
         data = image.png(scene.size, strips, [scenefile.chunk(text)])
@@ -97,20 +97,21 @@ def in_language(words, lang):
     return words.get(lang) or words.get("en") or next(iter(words.values()), "")
 
 
-def _drawn(scene, renderer):
+def _drawn(scene, renderer, progress=None):
     """Return (size, pixels, broken pixels) of a scene without panels."""
     faults = []
-    return scene.size, b"".join(_counting(renderer.strips(scene), faults)), sum(faults)
+    strips = _counted(scene, renderer, faults, progress)
+    return scene.size, b"".join(strips), sum(faults)
 
 
-def _counting(strips, faults, progress=None):
-    """Yield the bytes of strips, noting broken pixels; tell progress how many bytes so far."""
-    done = 0
-    for pixels, broken in strips:
+def _counted(scene, renderer, faults, progress, linear=False):
+    """Yield the strips of a picture, noting broken pixels; tell progress the share done."""
+    done, total = 0, scene.size[0] * scene.size[1] * (12 if linear else 3)
+    for pixels, broken in renderer.strips(scene, linear):
         faults.append(broken)
         done += len(pixels)
         if progress:
-            progress(done)
+            progress(done / total)
         yield pixels
 
 
@@ -119,7 +120,7 @@ def _sheet(scene, renderer, lang, progress, depth=1):
     cells, broken = [], 0
     for i, panel in enumerate(scene.panels):
         one = Scene.load(panel.scene) if panel.scene else scene._replace(panels=(), title={})
-        one = settings.all_changed(one, panel.values)
+        one = settings.all_changed(one, panel.values, f"panel {i + 1}: ")
         if one.panels and depth == DEPTH:
             raise Mistake(f"{panel.scene}: sheets within sheets; allowed: {depth} levels")
         if one.panels:

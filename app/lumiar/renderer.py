@@ -1,7 +1,7 @@
 """Owns the objects on the graphics card: Scene → linear radiance → displayed pixels."""
 
 import math
-import struct
+import os
 from contextlib import suppress
 from typing import NamedTuple
 
@@ -9,9 +9,9 @@ import moderngl
 
 from . import camera, compose, geometry, layout
 from .errors import Mistake, one_line
-from .parameter import TINT
 
 STRIP = 1 << 23  # samples drawn at a time: bounds the memory (180 MB) and the longest wait
+MESHES = 64  # kept on the graphics card
 COMMON = 8192  # pixels a side that every driver draws; asking it takes a millisecond
 INSTALL = "install a driver: on Debian or Ubuntu `apt install libegl1 libgl1-mesa-dri`"
 
@@ -47,7 +47,7 @@ class Renderer:
         self.context = context or open_context()
         self._owns_context = context is None
         self._programs, self._meshes, self._arrays, self._targets = {}, {}, {}, {}
-        self._idle = None
+        self._idle, self._watches_loops = None, False
         self._drawn = (None, [])  # the last scene and its jobs: most frames draw it again
 
     def __enter__(self):
@@ -57,14 +57,21 @@ class Renderer:
         self.release()
 
     def release(self):
-        """Free everything on the graphics card."""
+        """Free everything on the graphics card; the second time does nothing."""
+        if self.context is None:
+            return
         with self.context:
             buffers = [b for _, *three in self._meshes.values() for b in three if b]
             for made in (*self._arrays.values(), *self._programs.values(), *buffers):
                 made.release()
             self._release_targets()
+            if self._idle:
+                (attachment,) = self._idle.color_attachments
+                attachment.release()
+                self._idle.release()
         if self._owns_context:
             self.context.release()
+        self.context = None
 
     @property
     def name(self):
@@ -72,6 +79,11 @@ class Renderer:
         with self.context:  # another one, or none, may be the current one
             info = self.context.info
         return f"{info['GL_RENDERER']}, OpenGL {info['GL_VERSION']}"
+
+    @property
+    def may_cut_loops(self):
+        """Whether what was drawn has loops, and this driver is known to cut long ones short."""
+        return self._watches_loops and "llvmpipe" in self.name
 
     def strips(self, scene, linear=False):
         """Yield the picture of a scene as strips of rows, top first: (bytes, broken pixels).
@@ -132,6 +144,8 @@ class Renderer:
     def _jobs(self, scene):
         """Return what it takes to draw each object of a scene."""
         if self._drawn[0] is not scene:
+            if len(self._meshes) > MESHES:
+                self._forget_meshes()
             entries = [self._mesh(one) for one in scene.objects]
             placed = layout.arrange(scene, [entry[0] for entry in entries])
             jobs = [self._job(scene, *pair) for pair in zip(placed, entries, strict=True)]
@@ -140,15 +154,7 @@ class Renderer:
 
     def _job(self, scene, placed, entry):
         program = self._program(scene, placed)
-        values = {
-            "rig_clip": _columns(placed.clip, 4),
-            "rig_world": _columns(placed.world, 4),
-            "rig_turn": _columns(camera.normal_matrix(placed.world), 3),
-            "rig_eye": struct.pack("3f", *placed.eye),
-            **_uniforms(placed.object.model, placed.object.values, scene, ""),
-        }
-        for i, light in enumerate(scene.lights, 1):
-            values.update(_uniforms(light.kind, light.values, scene, f"_{i}"))
+        values = layout.uniforms(scene, placed)
         members = ((program.get(name, None), value) for name, value in values.items())
         uniforms = tuple((member, value) for member, value in members if member is not None)
         winding = "ccw" if camera.mirrors(placed.world) else "cw"  # y points down in clip space
@@ -172,6 +178,7 @@ class Renderer:
 
     def _compile(self, sources):
         texts = {f"{stage}_shader": source.text for stage, source in sources.items()}
+        self._watches_loops |= any("rig_cut_short" in text for text in texts.values())
         try:
             return self.context.program(**texts)
         except moderngl.Error as error:
@@ -184,13 +191,22 @@ class Renderer:
     def _mesh(self, one):
         """Return (Geometry, vertex, tangent and index buffer) of an object's mesh."""
         tangents = "tangent" in one.model.needs
-        key = (one.mesh, one.crease, tangents)
+        key = (one.mesh, one.crease, tangents, _state(one.mesh))
         if key not in self._meshes:
             mesh = geometry.load(one.mesh, crease=one.crease, tangents=tangents)
             buffers = (mesh.vertices, mesh.tangents, mesh.indices)
             made = (self.context.buffer(b) if len(b) else None for b in buffers)
             self._meshes[key] = (mesh, *made)
         return self._meshes[key]
+
+    def _forget_meshes(self):
+        """Make room on the graphics card: a slider may have named hundreds of shapes."""
+        buffers = {b for _, *three in self._meshes.values() for b in three if b}
+        for key in [key for key in self._arrays if key[-1] in buffers]:
+            self._arrays.pop(key).release()
+        for buffer in buffers:
+            buffer.release()
+        self._meshes.clear()
 
     def _array(self, program, entry):
         """Return the vertex array that feeds a mesh to a program, without what it does not take."""
@@ -243,26 +259,10 @@ class Renderer:
             )
 
 
-def _columns(matrix, n):
-    """Return the bytes of an n x n matrix as OpenGL wants them, column by column."""
-    return struct.pack(f"{n * n}f", *(matrix[n * i + j] for j in range(n) for i in range(n)))
-
-
-def _uniforms(shader, values, scene, suffix):
-    """Return {name: bytes} of the parameters that are set while running."""
-    packed = {}
-    for parameter in shader.parameters:
-        if parameter.constant:
-            continue
-        value = scene.time if parameter.widget == "time" else values[parameter.name]
-        if parameter.degrees:
-            value = math.radians(value)
-        if parameter.widget == "direction":
-            length = math.hypot(*value)
-            value = [v / length for v in value]
-        if parameter.tinted:
-            value = [value * channel for channel in values[TINT]]
-        numbers = value if isinstance(value, (tuple, list)) else (value,)
-        form = "i" if parameter.type == "int" else "f"
-        packed[parameter.name + suffix] = struct.pack(f"{len(numbers)}{form}", *numbers)
-    return packed
+def _state(path):
+    """Return what changes when the mesh file at a path does; None for a built-in shape."""
+    if not os.path.isabs(path):
+        return None
+    with suppress(OSError):  # loading it will tell
+        status = os.stat(path)
+        return status.st_size, status.st_mtime_ns

@@ -28,6 +28,7 @@ class Scene(NamedTuple):
     tone: str = "none"
     time: float = 0.0
     title: dict = {}  # noqa: RUF012  never changed in place
+    lang: str = "system"
     columns: int = 0
     panels: tuple[Panel, ...] = ()
 

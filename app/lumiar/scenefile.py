@@ -32,6 +32,13 @@ class _File(NamedTuple):
         return Place(self.text, self.path, key, section, index)
 
 
+def system_language():
+    """Return the language of LANGUAGES that the system speaks, else English."""
+    names = ("LC_ALL", "LC_MESSAGES", "LANG")
+    system = next((os.environ[name] for name in names if os.environ.get(name)), "")
+    return next((lang for lang in LANGUAGES if system.lower().startswith(lang)), "en")
+
+
 def shipped():
     """Return the scenes that come with Lumiar, {name: path}."""
     folder = os.path.join(ASSETS, "scenes")
@@ -90,6 +97,9 @@ def dump(scene, folder):
 
     def setting(key, value):
         kind = key.rpartition(".")[2]
+        if kind == "light":  # as text, its parameters behind colons
+            name, *rest = settings.light_parts(str(value))
+            return ":".join([written(name, kind), *rest])
         return written(value, kind) if kind in ("mesh", "model") else value
 
     data = {key: getattr(scene, key) for key in SCENE}
@@ -141,7 +151,11 @@ def embedded(data, path):
 
 def chunk(text):
     """Return (type, contents) of the PNG chunk that carries the text of a scene."""
-    return b"iTXt", _KEYWORD + b"\0\0\0\0\0" + text.encode()
+    try:
+        return b"iTXt", _KEYWORD + b"\0\0\0\0\0" + text.encode()
+    except UnicodeEncodeError as error:
+        name = text[max(0, error.start - 20) : error.end + 20]
+        raise Mistake(f"…{name}…: a file name that is no UTF-8; rename the file") from None
 
 
 def _check_keys(data, allowed, where):
@@ -209,8 +223,9 @@ def _panel(file, index, data, scene):
         raise Mistake(f"{where('set')}set = {given!r}; write set = {{ key = value, … }}")
     for key, value in given.items():
         kind = key.rpartition(".")[2]
-        if kind in ("mesh", "model"):
-            _confine(file, str(value), kind, where("set"))
+        if kind in ("mesh", "model", "light"):
+            name = settings.light_parts(str(value))[0] if kind == "light" else str(value)
+            _confine(file, name, kind, where("set"))
         value = tuple(value) if isinstance(value, list) else value
         value = settings.canonical(key, value, where("set"), file.folder)
         scene = settings.changed(scene, key, value, where("set"))
@@ -229,7 +244,7 @@ def _names(data, defaults, where):
 
 def _confine(file, name, kind, where):
     """Refuse a path outside the folder of the scene, unless the scene knows what is in it."""
-    ending = geometry.FORMATS if kind == "mesh" else (".toml",) if kind == "scene" else (".glsl",)
+    ending = {"mesh": geometry.FORMATS, "scene": ("",)}.get(kind, (".glsl",))
     if not name.lower().endswith(ending):
         return  # no path: the name of something that comes with Lumiar, or a mistake told later
     path = os.path.abspath(os.path.join(file.folder, os.path.expanduser(name)))

@@ -65,7 +65,12 @@ def canonical(key, value, where="", folder=""):
     kind = key.rpartition(".")[2]
     if kind == "mesh":
         return geometry.canonical(str(value), folder, where)
-    return catalog.read("model", str(value), where, folder).name if kind == "model" else value
+    if kind == "model":
+        return catalog.read("model", str(value), where, folder).name
+    if key == "light":
+        name, *rest = light_parts(str(value))
+        return ":".join([catalog.read("light", name, where, folder).name, *rest])
+    return value
 
 
 def scene_value(key, value, where=""):
@@ -86,7 +91,7 @@ def object_value(key, value, where=""):
 
 def light(spec, where="", folder=""):
     """Return the Light that text such as `point:intensity=80:position=0,2,0` describes."""
-    name, *values = spec.split(":")
+    name, *values = light_parts(spec)
     kind = catalog.read("light", name, where, folder)
     one = Light(kind, kind.defaults())
     for setting in values:
@@ -95,11 +100,17 @@ def light(spec, where="", folder=""):
     return one
 
 
+def light_parts(spec):
+    """Return [kind or path, "key=value", ...] of a light written as text, see `light`."""
+    path, ending, rest = spec.partition(".glsl")  # a path may hold a colon, as on Windows
+    return [path + ending, *rest.split(":")[1:]] if ending else spec.split(":")
+
+
 def _addressed(scene, key):
     """Return (indices of objects, indices of lights, rest of the key) that a key may speak of."""
     first, _, rest = key.partition(".")
     number, _, last = rest.partition(".")
-    if first in ("object", "light") and number.isdigit():
+    if first in ("object", "light") and number.isdecimal() and number.isascii():
         among = scene.objects if first == "object" else scene.lights
         chosen = [int(number) - 1] if 1 <= int(number) <= len(among) else []
         return (chosen, [], last) if first == "object" else ([], chosen, last)
@@ -147,4 +158,6 @@ def _light_with(one, key, value, where):
 
 
 def _typed(parameter, value, where):
+    if parameter.widget == "time":
+        raise Mistake(f"{where}{parameter.name} follows the time of the scene; set time instead")
     return parameter.read(value, where) if isinstance(value, str) else value

@@ -1,5 +1,6 @@
 """Pictures with captions laid out as one picture, legible from the back of a room."""
 
+import math
 import os
 
 from .files import ASSETS
@@ -18,7 +19,8 @@ def lay_out(title, cells, columns=0):
     from PIL import Image, ImageDraw
 
     if not columns:
-        columns = next(n for n in range(1, len(cells) + 1) if n * n * 3 >= len(cells) * 4 or n > 7)
+        wide = math.ceil(math.sqrt(len(cells) * 4 / 3))
+        columns = min(wide, len(cells), 8)
     rows = [cells[i : i + columns] for i in range(0, len(cells), columns)]
     widths = [max(row[k][1][0] for row in rows if k < len(row)) for k in range(len(rows[0]))]
     gap = max(8, max(widths) // 40)

@@ -29,8 +29,7 @@ def supervised(job):
     """
     if not hasattr(os, "fork"):
         return job()
-    sys.stdout.flush()
-    sys.stderr.flush()
+    _flush()
     listen, channel = os.pipe()
     child = os.fork()
     if child == 0:
@@ -58,15 +57,21 @@ def _be_the_child(job, channel):
             code = job()
         except SystemExit as end:  # argparse ends so
             code = end.code if isinstance(end.code, int) else 1
-        sys.stdout.flush()
+        _flush()
     except BrokenPipeError:  # the reader of our output has gone (`lumiar list | head`)
         pass
     except BaseException:
         sys.excepthook(*sys.exc_info())
     finally:
         with contextlib.suppress(OSError):
-            sys.stderr.flush()
+            _flush()
         os._exit(code)  # leaves out the interpreter's tidying-up, tens of milliseconds
+
+
+def _flush():
+    for stream in (sys.stdout, sys.stderr):
+        if stream is not None:  # closed by whoever started us
+            stream.flush()
 
 
 class _Ended(Exception):

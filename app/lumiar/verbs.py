@@ -1,5 +1,6 @@
 """What each verb does with its options; each returns an exit code."""
 
+import contextlib
 import os
 import sys
 import time
@@ -19,7 +20,7 @@ def capture(options):
     if options.timeout:
         limit_time(options.timeout)
     scene = given.scene(options)
-    for key in ("size", "samples"):
+    for key in ("size", "samples", "lang"):
         if getattr(options, key) is not None:
             scene = scene.changed(key, getattr(options, key), f"--{key}: ")
     if options.vary:
@@ -28,10 +29,10 @@ def capture(options):
     from .renderer import Renderer
 
     renderer = Renderer()
-    broken = picture.write(scene, path, renderer, _language(options.lang), _Progress(path))
+    broken = picture.write(scene, path, renderer, _Progress(path))
     print(path)
     if broken:
-        cut = ", or its loops cut short after 65535 steps" * ("llvmpipe" in renderer.name)
+        cut = ", or its loops cut short after 65535 steps" * renderer.may_cut_loops
         text = f"{broken} pixels have no finite radiance (NaN or infinite{cut}); they are magenta"
         print(f"lumiar: {path}: {text}", file=sys.stderr)
     return 3 if broken and options.strict else 0
@@ -70,32 +71,28 @@ def compare(options):
 
     from . import difference, files, image
 
+    if options.timeout:
+        limit_time(options.timeout)
     a, b = image.read(options.a), image.read(options.b)
     difference.check_alike(a, b, (options.a, options.b))
     result = difference.measure(a[0], b[0], options.threshold)
-    try:
-        result["flip"] = difference.flip(a[0], b[0], a[1])
-    except ImportError:
-        result["flip"] = None
-        if options.max_flip is not None:
-            raise Mistake("--max-flip: flip-evaluator has no build for this Python") from None
     limits = {
         "rmse": options.max_rmse,
         "max": options.max_error,
         "share": options.max_share,
         "flip": options.max_flip,
     }
-    over = [name for name, most in limits.items() if most is not None and result[name] > most]
-    if over or any(most is not None for most in limits.values()):
-        over += ["not_finite"] if result["not_finite"] else []
-    if options.json:
-        print(json.dumps({**result, "over": over}, indent=2))
-    else:
-        unit = "radiance" if a[1] else "sRGB, 0 to 1"
-        print(f"unit        {unit}")
-        for name, value in result.items():
-            shown = "not measured" if value is None else f"{value:.6g}"
-            print(f"{name:11} {shown}{'  over the limit' if name in over else ''}")
+    limits = {name: most for name, most in limits.items() if most is not None}
+    result["flip"] = None  # takes seconds: left out where others decide
+    if not limits or "flip" in limits:
+        with contextlib.suppress(ImportError):  # no build for this Python
+            result["flip"] = difference.flip(a[0], b[0], a[1])
+        if "flip" in limits and result["flip"] is None:
+            raise Mistake("--max-flip: FLIP is not measured here; give another limit")
+    over = [name for name, most in limits.items() if result[name] > most]
+    if limits and result["not_finite"]:
+        over.append("not_finite")
+    white = None
     if options.output:
         if image.ending(options.output) != ".png":
             raise Mistake(f"{options.output}: the difference is written as .png")
@@ -103,15 +100,26 @@ def compare(options):
         pixels, white = difference.picture(a[0], b[0])
         size = (a[0].shape[1], a[0].shape[0])
         files.write_whole(options.output, image.png(size, [pixels]))
-        print(f"{options.output}  (white: {white:.6g})")
+    if options.json:
+        shown = {"picture": options.output, "white": white} if options.output else {}
+        print(json.dumps({**result, "over": over, **shown}, indent=2))
+    else:
+        unit = "radiance" if a[1] else "sRGB, 0 to 1"
+        print(f"unit        {unit}")
+        for name, value in result.items():
+            shown = "not measured" if value is None else f"{value:.6g}"
+            print(f"{name:11} {shown}{'  over the limit' if name in over else ''}")
+        if options.output:
+            print(f"{options.output}  (white: {white:.6g})")
     return 1 if over else 0
 
 
 def list(options):
     """Print the models, lights, meshes and scenes there are."""
     from . import report
+    from .scenefile import system_language
 
-    print(report.everything(options.kind, options.json, _language(None)))
+    print(report.everything(options.kind, options.json, system_language()))
     return 0
 
 
@@ -131,13 +139,6 @@ def _check_folder(path):
         raise Mistake(f"{path}: there is no folder {folder}; make it, or write elsewhere")
     if os.path.isdir(path):
         raise Mistake(f"{path}: is a folder; name a file in it")
-
-
-def _language(asked):
-    """Return the language of captions: the one asked for, else the system's, else English."""
-    names = ("LC_ALL", "LC_MESSAGES", "LANG")
-    system = next((os.environ[name] for name in names if os.environ.get(name)), "")
-    return asked or ("pt" if system.lower().startswith("pt") else "en")
 
 
 class _Progress:

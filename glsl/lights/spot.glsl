@@ -12,8 +12,11 @@ Incident light(vec3 place, vec2 u) {
     vec3 toward = position - place;
     float square = max(dot(toward, toward), 1e-12);  // a micrometre: a point on the light itself
     vec3 L = toward * inversesqrt(square);
-    vec3 axis = normalize(position - target);
-    float edge = cos(outer), width = max(cos(inner) - edge, 1e-4);  // inner = outer: a sharp edge
-    float t = clamp((dot(L, axis) - edge) / width, 0.0, 1.0);
+    vec3 axis = position - target;
+    vec3 off = L - axis * inversesqrt(max(dot(axis, axis), 1e-24));  // 1e-24: no axis, no NaN
+    // The cosines fall from that of the inner angle to that of the outer; 1 - cos keeps the digits.
+    float s = sin(0.5 * outer), edge = 2.0 * s * s;
+    float c = sin(0.5 * inner), width = max(edge - 2.0 * c * c, 1e-20);  // 1e-20: a sharp edge
+    float t = clamp((edge - 0.5 * dot(off, off)) / width, 0.0, 1.0);
     return Incident(L, intensity * (t * t * (3.0 - 2.0 * t) / square));
 }
