@@ -107,7 +107,7 @@ def parse(kind, name, path, text):
         parameter = parse_uniform(lines[number - 1], number, path)
         if parameter.name in parameters:
             raise Mistake(f"{path}:{number}: '{parameter.name}' is declared twice; keep one line")
-        if kind != "rig" and parameter.name in (*OWN_KEYS[kind], *SCENE_KEYS):
+        if kind != "rig" and parameter.name in (*OWN_KEYS[kind], *SCENE_KEYS, "light"):
             raise Mistake(f"{path}:{number}: '{parameter.name}' is a key of scenes; rename it")
         parameters[parameter.name] = parameter
     tinted = any(parameter.tinted for parameter in parameters.values())

@@ -117,13 +117,18 @@ def _renamed(light, index, constants):
     bare = without_comments(text)
     declared = {name for chunk in chunks(bare) for name in chunk.names} | set(_MACRO.findall(bare))
     pattern = re.compile(rf"(?<![.\w])({'|'.join(sorted(declared))})\b")
-    field = re.compile(pattern.pattern + r"(?!\s*[][;,])")  # in a struct: types, not fields
+    field = re.compile(pattern.pattern + r"(?!\s*[;,\[])")  # in a struct: types, not fields
     lines, in_struct = [], False
     for line in text.split("\n"):
         code, slashes, comment = line.partition("//")
         in_struct = in_struct or re.search(r"\bstruct\b", code) is not None
         if included(code) is None:
-            code = (field if in_struct else pattern).sub(rf"\1_{index}", code)
+            inside, brace, outside = code.partition("}") if in_struct else ("", "", code)
+            inside, outside = (
+                field.sub(rf"\1_{index}", inside),
+                pattern.sub(rf"\1_{index}", outside),
+            )
+            code = inside + brace + outside
         in_struct = in_struct and "}" not in code
         lines.append(code + slashes + comment)
     return "\n".join(lines)

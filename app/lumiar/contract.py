@@ -7,7 +7,7 @@ from .errors import Mistake
 FORBIDDEN = {
     r"gl_\w+": "one text serves every shading rate, so nothing of OpenGL's own; leave it out",
     r"discard|dFdx|dFdy|fwidth": "works at one shading rate only; leave it out",
-    r"texture\w*|texelFetch|sampler\w+": "a model reads no textures; write it as a formula",
+    r"texture(?:[A-Z1-3]\w*)?|texelFetch\w*|[iu]?sampler[1-3C]\w*": "there are no textures; write a formula",
     r"(?<=#)\s*(?:version|extension|line)": "the rigs say that; leave the line out",
     r"rig_\w+": "names that begin with rig_ belong to the rigs; rename it",
 }
@@ -21,11 +21,19 @@ BUILT_IN = re.compile(
 RIGS = {"main", "Frame", "to_local", "from_local", "tangent_frame"}
 _BRACKETS = {"}": "{", ")": "(", "]": "["}
 _ANY = re.compile("|".join(rf"(?P<_{i}>(?<![\w.])(?:{p})\b)" for i, p in enumerate(FORBIDDEN)))
-_STAGE = re.compile(r"^[ \t]*(?:(?:flat|smooth|centroid)\s+)*(?:in|out)\s+\w+\s+\w+\s*[;=[]", re.M)
-_HEAD = re.compile(r"^[ \t]*((?:(?:highp|mediump|lowp)\s+)?\w+)\s+(\w+)\s*\(([^()]*)\)\s*\{", re.M)
+_START = r"(?:^|[;{}])[ \t]*"  # of a declaration
+_STAGE = re.compile(
+    _START + r"(?:(?:flat|smooth|noperspective|centroid|layout\s*\([^()]*\))\s+)*"
+    r"(?:(?:in|out)(?:\s+(?:highp|mediump|lowp))?|varying|attribute)\s+\w+\s*(?:\w+\s*[;=[,]|\{)",
+    re.M,
+)
+_HEAD = re.compile(
+    _START + r"((?:(?:highp|mediump|lowp)\s+)?\w+)\s+(\w+)\s*\(([^()]*)\)\s*\{", re.M
+)
 _ENDLESS = re.compile(
     r"\b(?:for\s*\(\s*[^;()]*;\s*(?:true)?\s*;[^()]*\)|while\s*\(\s*true\s*\))\s*"
 )
+_COMMENT = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)", re.DOTALL)
 _LEAVES = re.compile(r"\b(?:break|return)\b")
 
 
@@ -42,8 +50,9 @@ def check(code, path, wanted):
     if found := _ANY.search(code):
         why = tuple(FORBIDDEN.values())[int(found.lastgroup[1:])]
         refuse(found.start(), f"'{found.group().strip()}': {why}")
-    if found := _STAGE.search(code):
-        refuse(found.end() - 1, "a model has no inputs or outputs; it is given L and V")
+    for found in _STAGE.finditer(code):
+        if code.count("(", 0, found.end()) == code.count(")", 0, found.end()):  # no parameter
+            refuse(found.end() - 1, "a model has no inputs or outputs; it is given L and V")
     names = set()
     for found in _HEAD.finditer(code):
         result, name, parameters = found.groups()
@@ -54,19 +63,22 @@ def check(code, path, wanted):
             refuse(found.start(2), f"write {wanted[name]}")
         names.add(name)
     for found in _ENDLESS.finditer(code):
-        if not _LEAVES.search(_body(code, found.end())):
+        if not _LEAVES.search(_body(code, found)):
             refuse(found.start(), "a loop without an end; give it a condition or a break")
     return frozenset(names)
 
 
 def check_comments(text, path):
-    """Raise Mistake for a comment that is never closed."""
-    bare = re.sub(r"//[^\n]*|/\*.*?\*/", lambda m: " " * len(m.group()), text, flags=re.DOTALL)
-    at = bare.find("/*")
-    if at >= 0:
-        raise Mistake(
-            f"{path}:{text.count(chr(10), 0, at) + 1}: this comment is never closed by */"
-        )
+    """Raise Mistake for a comment that is never closed, or that swallows the line below it."""
+    for found in _COMMENT.finditer(text):
+        comment = found.group()
+        if comment.startswith("/*") and not (comment.endswith("*/") and len(comment) > 3):
+            why = "this comment is never closed by */"
+        elif comment.startswith("//") and comment.endswith("\\"):
+            why = "a comment that ends in \\ swallows the line below; end it otherwise"
+        else:
+            continue
+        raise Mistake(f"{path}:{text.count(chr(10), 0, found.start()) + 1}: {why}")
 
 
 def _check_brackets(code, refuse):
@@ -94,8 +106,14 @@ def _signature(declaration):
     return _types(result, rest.partition("(")[2].rstrip(")"))
 
 
-def _body(code, start):
-    """Return the statement that begins at `start`: a block in braces, or up to its semicolon."""
+def _body(code, head):
+    """Return what a loop repeats: a block in braces, or up to its semicolon; of do, what is before.
+
+    head is the match of its `for (…)` or `while (…)`.
+    """
+    before, start = code[: head.start()].rstrip(), head.end()
+    if code[start : start + 1] == ";" and before.endswith("}"):  # do { … } while (true);
+        return before[_opening(before) :]
     if code[start : start + 1] != "{":
         return code[start : code.find(";", start)]
     depth = 0
@@ -104,3 +122,13 @@ def _body(code, start):
         if depth == 0:
             return code[start : start + found.end()]
     return code[start:]
+
+
+def _opening(code):
+    """Return where the block begins that ends a code."""
+    depth = 0
+    for found in reversed([*re.finditer(r"[{}]", code)]):
+        depth += 1 if found.group() == "}" else -1
+        if depth == 0:
+            return found.start()
+    return 0

@@ -27,7 +27,8 @@ def locate(log, sources):
             return (*lines[number - 1], message)
     told = [line.strip() for line in log.splitlines() if line.strip(" =")]
     message = re.sub(r"^[\d:()]+\s*error\s*:\s*", "", told[-1]) if told else ""
-    for name in re.findall(r"[`'\"](\w+)", message):  # recursion, say, comes without a line
+    # Recursion, say, comes without a line: function `float f(float)' has static recursion
+    for name in re.findall(r"[`'\"][\w ]*?(\w+)[('\"]", message):
         for place in _named(name, sources):
             return (*place, message)
     return "", 0, message or "the driver gives no reason"

@@ -68,14 +68,21 @@ def _declared(code, words):
     start = _WORD.findall(head.partition("(")[0])
     if "#" in code or not _ALWAYS.isdisjoint(start):
         return set(), True
-    if "struct" in words:  # its name, and that of a variable of it right behind
-        return set(re.findall(r"(?:\bstruct|\})\s+(\w+)", code)), False
+    if "struct" in start:  # its name, and those of the variables right behind it
+        names = re.findall(r"\bstruct\s+(\w+)", code)
+        variables, _, more = code.rpartition("}")[2].partition(";")
+        return {*names, *_variables(variables + ";")}, bool(more.strip()) or code.count("{") > 1
     if brace:
         return set(start[-1:]), _holds_several(body)
-    while "(" in head and head != (head := re.sub(r"\([^()]*\)", "", head)):
+    return set(_variables(head)), False
+
+
+def _variables(code):
+    """Return the names that a list of declarators, up to its `;`, declares."""
+    while "(" in code and code != (code := re.sub(r"\([^()]*\)", "", code)):
         pass  # what is in brackets declares nothing
-    bare = re.sub(r"=[^,;]*", "=", head)
-    return set(re.findall(r"(\w+)\s*(?:\[[^\]]*\]\s*)?(?==|,|;)", bare)), False
+    bare = re.sub(r"=[^,;]*", "=", code)
+    return re.findall(r"(\w+)\s*(?:\[[^\]]*\]\s*)?(?==|,|;)", bare)
 
 
 def _holds_several(body):
