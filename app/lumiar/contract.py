@@ -7,7 +7,7 @@ from .errors import Mistake
 FORBIDDEN = {
     r"gl_\w+": "one text serves every shading rate, so nothing of OpenGL's own; leave it out",
     r"discard|dFdx|dFdy|fwidth": "works at one shading rate only; leave it out",
-    r"texture(?:[A-Z1-3]\w*)?|texelFetch\w*|[iu]?sampler[1-3C]\w*": "there are no textures; write a formula",
+    r"texture(?:[A-Z1-3]\w*)?|texelFetch\w*|[iu]?sampler[1-3C]\w*": "no textures; write a formula",
     r"(?<=#)\s*(?:version|extension|line)": "the rigs say that; leave the line out",
     r"rig_\w+": "names that begin with rig_ belong to the rigs; rename it",
 }
