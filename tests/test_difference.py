@@ -43,6 +43,15 @@ def test_flip_of_black_and_white_and_of_equals():
     assert difference.flip(grey(1.0), grey(4.0), linear=True) > 0.05
 
 
+@pytest.mark.parametrize("dark", [0.0, 1e-45, 1e-38, 1e-9, -1.0, np.nan, np.inf])
+def test_flip_of_a_reference_without_light_is_told_not_died_of(dark):
+    """HDR-FLIP takes its exposures from the reference; of one that is black there are none."""
+    pytest.importorskip("flip_evaluator")
+    assert difference.flip(grey(dark), grey(dark), linear=True) == 0.0
+    assert difference.flip(grey(dark), grey(1.0), linear=True) is None
+    assert difference.flip(grey(1.0), grey(0.0), linear=True) > 0.5
+
+
 def test_the_picture_of_a_difference():
     other = grey(0.5)
     other[0, 0], other[0, 1], other[0, 2] = 0.9, 0.6, np.nan

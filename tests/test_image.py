@@ -98,6 +98,15 @@ def test_reading_what_others_wrote(tmp_path):
     assert image.read(tmp_path / "a.jpg")[0].shape == (6, 8, 3)
 
 
+def test_sixteen_bits_of_grey_are_their_eight_bit_twin(tmp_path):
+    """65535 / 255 = 257."""
+    grey = RNG.integers(0, 256, (6, 8), np.uint8)
+    Image.fromarray(grey).save(tmp_path / "8.png")
+    Image.fromarray(grey.astype(np.uint16) * 257).save(tmp_path / "16.png")
+    a, b = (image.read(tmp_path / f"{bits}.png") for bits in (8, 16))
+    assert a[1] == b[1] and np.abs(a[0] - b[0]).max() < 1e-7
+
+
 def bomb(width, height):
     """Return a small PNG that claims to be large."""
     head = struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)
@@ -130,6 +139,45 @@ def test_a_broken_picture_is_one_line(tmp_path, name, data):
     (tmp_path / name).write_bytes(data)
     with pytest.raises(Mistake, match=name):
         image.read(tmp_path / name)
+
+
+def npy(header):
+    return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"",
+        npy(b"{'descr': '<f4', 'fortran_order': False, 'shape': (99999999, 99999999, 3), }\n"),
+        npy(
+            b"{'descr': '<f4', 'fortran_order': False, 'shape': (900000, 900000, 3), }\n" + bytes(9)
+        ),
+        npy(b"{'descr': '<f4', 'fortran_order': False, 'shape': (2, -2, 3), }\n" + bytes(48)),
+        npy(b"{'descr': 'f4,f4', 'fortran_order': False, 'shape': (2, 2, 3), }\n" + bytes(96)),
+        npy(b"{'descr': '<f4', 'shape': (2, 2, 3), }\n" + bytes(48)),
+        npy(b"{" * 3000),
+        npy(b"\xff\n"),
+    ],
+    ids=range(8),
+)
+def test_an_npy_that_is_none_is_one_line(tmp_path, data):
+    (tmp_path / "a.npy").write_bytes(data)
+    with pytest.raises(Mistake, match=r"a\.npy: not a picture that can be read"):
+        image.read(tmp_path / "a.npy")
+
+
+def test_an_npz_under_the_name_of_an_npy_is_one_line(tmp_path):
+    np.savez(tmp_path / "a.npz", a=np.zeros((2, 2, 3), np.float32))
+    (tmp_path / "a.npz").rename(tmp_path / "a.npy")
+    with pytest.raises(Mistake, match=r"a\.npy: not a picture that can be read"):
+        image.read(tmp_path / "a.npy")
+
+
+def test_what_is_beyond_float32_is_infinite(tmp_path):
+    """pytest makes any warning an error."""
+    np.save(tmp_path / "a.npy", np.full((2, 2, 3), 1e300))
+    assert np.isinf(image.read(tmp_path / "a.npy")[0]).all()
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,8 @@ import numpy as np
 
 from .errors import Mistake
 
+LUMINANCE = np.array([0.2126, 0.7152, 0.0722])  # of linear red, green and blue: ITU-R BT.709
+
 
 def measure(a, b, threshold=0.0):
     """Return {name: value} for two pictures (height, width, 3) of the same shape.
@@ -30,8 +32,8 @@ def flip(a, b, linear):
     """Return the mean FLIP error of picture b against reference a, in [0, 1].
 
     P. Andersson et al., "FLIP: a difference evaluator for alternating images", HPG 2020; for linear
-    radiance HDR-FLIP, 2021. None where it is not defined: HDR-FLIP of a black reference. Raises
-    ImportError where its package has no build for this Python.
+    radiance HDR-FLIP, 2021. None where it is not defined: HDR-FLIP of a reference that is black, or
+    darker than 1e-7 everywhere. Raises ImportError where its package has no build for this Python.
     """
     import flip_evaluator
 
@@ -39,8 +41,8 @@ def flip(a, b, linear):
         a, b = (np.maximum(np.nan_to_num(one, posinf=0.0, neginf=0.0), 0.0) for one in (a, b))
     if np.array_equal(a, b):
         return 0.0
-    if linear and not a.any():
-        return None  # the package would end the whole process
+    if linear and (a @ LUMINANCE).max() <= np.finfo(np.float32).eps:
+        return None  # the package finds no exposure, and would end the whole process
     kind = "HDR" if linear else "LDR"
     images = (np.ascontiguousarray(a), np.ascontiguousarray(b))
     return float(flip_evaluator.evaluate(*images, kind, applyMagma=False)[1])

@@ -93,8 +93,6 @@ def read(path):
             pixels = _read_hdr(data)
         else:
             pixels = _read_display(data, path)
-    except (EOFError, AttributeError, MemoryError):  # what numpy says of a broken .npy
-        raise Mistake(f"{path}: not a picture that can be read: damaged, or none at all") from None
     except (ValueError, IndexError, SyntaxError, struct.error, zlib.error, OSError) as error:
         raise Mistake(f"{path}: not a picture that can be read: {error}") from None
     if pixels.ndim != 3 or pixels.shape[2] != 3:
@@ -123,10 +121,18 @@ def _hdr_row(row):
 
 def _read_npy(data):
     import io
+    import warnings
 
     import numpy as np
 
-    array = np.load(io.BytesIO(data), allow_pickle=False)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            array = np.load(io.BytesIO(data), allow_pickle=False)
+        except Exception:  # of a damaged header it raises whatever its parser raised
+            raise ValueError("damaged, or no .npy at all") from None
+    if not isinstance(array, np.ndarray):
+        raise ValueError("it is an .npz, of several arrays; save the picture alone, as .npy")
     if array.dtype.kind not in "fiu":
         raise ValueError(f"it holds {array.dtype}, not numbers")
     return array
