@@ -15,6 +15,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from lumiar import Scene, capture
+from lumiar.renderer import Renderer
+
 SMALL = ("--size", "48x32", "--samples", "1")
 OWN = "// model   Own\nvec3 scatter(vec3 L, vec3 V) { return vec3(%s) * max(L.z, 0.0); }\n"
 SLOW = "float x = L.z; for (int i = 0; i < 65000; ++i) x = sin(x + exp(-x)); return vec3(x);"
@@ -171,6 +174,18 @@ def test_a_loop_cut_short_is_never_a_silent_picture(lumiar, tmp_path, rate):
         (["compare", "a.png", "b.png"], "a.png: no such file"),
         (["compare", "a.png", "b.png", "--max-rmse", "-1"], "'-1' is not a number, 0 or more"),
         (["list", "modles"], "invalid choice: 'modles'"),
+        (["capture", *["--light", "ambient"] * 65], "--light: 65 lights; allowed: up to 64"),
+        (["capture", "demo", "--model", "lambert"], "--model: demo is a sheet of other scenes"),
+        (["capture", "demo", "--mesh", "torus"], "--mesh: demo is a sheet of other scenes"),
+        (["capture", "demo", "--shading", "flat"], "--shading: demo is a sheet of other scenes"),
+        (["capture", "demo", "--light", "spot"], "--light: demo is a sheet of other scenes"),
+        (["capture", "demo", "--set", "kd=1"], "draw one of them: phong-terms, "),
+        (["capture", "demo", "--size", "9x9"], "--size: demo is a sheet of other scenes"),
+        (["capture", "demo", "--samples", "1"], "--samples: demo is a sheet of other scenes"),
+        (["capture", "demo", "--vary", "kd=0,1"], "--vary: demo is a sheet of other scenes"),
+        (["capture", "--set", "camera.position=0,0,0"], "the eye stands on its target"),
+        (["capture", "--set", "camera.target=1e17"], "the eye stands on its target"),
+        (["capture", "--set", "object.².kd=1"], "no value 'object.².kd'"),
     ],
 )
 def test_a_mistake_is_one_line_and_exit_code_2(lumiar, tmp_path, arguments, told):
@@ -321,13 +336,31 @@ def test_an_old_driver_is_one_line(lumiar):
     assert "OpenGL 3.3" in told
 
 
-def test_source_is_what_is_compiled(lumiar, tmp_path):
-    text = lumiar(
-        "source", "--model", "lambert", "--light", "directional", "--shading", "flat"
-    ).stdout
-    stages = re.findall(r"^// ======== (\w+) stage ========$", text, re.MULTILINE)
-    assert stages == ["vertex", "geometry", "fragment"] and text.count("#version 330 core") == 3
-    assert "scatter" in text and "spot" not in text
+@pytest.mark.parametrize(
+    ("rate", "stages"),
+    [
+        ("flat", ["vertex", "geometry", "fragment"]),
+        ("gouraud", ["vertex", "fragment"]),
+        ("phong", ["vertex", "fragment"]),
+    ],
+)
+def test_source_is_what_is_compiled(lumiar, monkeypatch, rate, stages):
+    """Every text that a picture of the same scene hands to the driver is printed, and no other."""
+    handed, compiling = [], Renderer._compile
+
+    def spy(self, sources):
+        handed.append(sources)
+        return compiling(self, sources)
+
+    monkeypatch.setattr(Renderer, "_compile", spy)
+    given = {"model": "lambert", "light": "point", "shading": rate, "rotation": (0.0, 20.0, 0.0)}
+    capture(Scene.default().set(size=(8, 8), **given))
+    surface = next(sources for sources in handed if "scatter" in str(sources))
+    assert list(surface) == stages
+    options = ("--model", "lambert", "--light", "point", "--shading", rate)
+    printed = lumiar("source", *options, "--set", "rotation=0,20,0").stdout
+    texts = (f"// ======== {stage} stage ========\n{surface[stage].text}\n" for stage in stages)
+    assert printed == "".join(texts)
 
 
 def test_info_tells_of_models_meshes_scenes_and_pictures(lumiar, tmp_path):
@@ -378,26 +411,106 @@ def test_compare_is_a_gate(lumiar, tmp_path):
     assert pixels(tmp_path / "d.png").shape == (32, 48, 3)
 
 
-def test_captions_follow_the_language(lumiar, tmp_path):
-    for name, more in (
-        ("en", {}),
-        ("pt", {"LANG": "pt_BR.UTF-8", "LC_ALL": ""}),
-        ("asked", {"LANG": "pt_BR"}),
-    ):
-        option = ("--lang", "en") if name == "asked" else ()
-        lumiar(
-            "capture",
-            "phong-terms",
-            *SMALL,
-            *option,
-            "-o",
-            f"{name}.png",
-            env={"LC_ALL": "", **more},
+def test_black_radiance_is_compared_without_drama(lumiar, tmp_path):
+    """HDR-FLIP of a black reference is not defined; the library ends the process over it."""
+    for name, value in (("black", 0.0), ("white", 1.0)):
+        np.save(tmp_path / f"{name}.npy", np.full((8, 8, 3), value, np.float32))
+    same = json.loads(lumiar("compare", "black.npy", "black.npy", "--json").stdout)
+    assert same["flip"] == same["rmse"] == 0.0
+    other = json.loads(lumiar("compare", "black.npy", "white.npy", "--json").stdout)
+    assert other["flip"] is None and other["rmse"] == 1.0
+    assert "flip        not measured" in lumiar("compare", "black.npy", "white.npy").stdout
+    told = lumiar("compare", "black.npy", "white.npy", "--max-flip", "1", code=2).stderr
+    assert "--max-flip: FLIP is not measured here" in told
+
+
+def test_flip_is_left_out_where_other_limits_decide(lumiar, tmp_path):
+    for name, value in (("a", 0.25), ("b", 0.5)):
+        np.save(tmp_path / f"{name}.npy", np.full((8, 8, 3), value, np.float32))
+    limited = ("compare", "a.npy", "b.npy", "--json", "--max-rmse", "1")
+    assert json.loads(lumiar(*limited).stdout)["flip"] is None
+    assert json.loads(lumiar(*limited, "--max-flip", "1").stdout)["flip"] > 0.0
+    assert json.loads(lumiar("compare", "a.npy", "b.npy", "--json").stdout)["flip"] > 0.0
+
+
+def test_an_array_that_is_no_picture_is_one_line(lumiar, tmp_path):
+    np.savez(tmp_path / "z.npz", a=np.zeros((2, 2, 3)))
+    (tmp_path / "z.npz").rename(tmp_path / "z.npy")
+    (tmp_path / "empty.npy").touch()
+    np.save(tmp_path / "large.npy", np.full((2, 2, 3), 1e300))
+    for name in ("z.npy", "empty.npy"):
+        assert name in lumiar("compare", name, "large.npy", code=2).stderr
+    assert lumiar("compare", "large.npy", "large.npy").stderr == ""
+
+
+def test_a_sheet_of_one_picture_needs_no_columns(lumiar, tmp_path):
+    (tmp_path / "one.toml").write_text('size = [40, 30]\n[[panel]]\ncaption = "alone"\n')
+    lumiar("capture", "one.toml", "-o", "one.png")
+    height, width, _ = pixels(tmp_path / "one.png").shape
+    assert width > 40 and height > 30
+
+
+def test_an_eye_very_far_away_sees_the_background(lumiar, tmp_path):
+    far = ("capture", *SMALL, "--set", "camera.position=1e17", "--set", "background=0.25")
+    assert lumiar(*far, "-o", "far.npy", "--strict").stderr == ""
+    assert (np.load(tmp_path / "far.npy") == 0.25).all()
+
+
+def test_a_mesh_whose_name_is_no_utf8_is_drawn_but_not_written_into_a_picture(lumiar, tmp_path):
+    name = os.fsdecode(b"no\xff.obj")
+    (tmp_path / name).write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    told = lumiar("capture", "--mesh", name, *SMALL, "-o", "a.png", code=2).stderr
+    assert "a file name that is no UTF-8; rename the file" in told
+    assert os.listdir(tmp_path) == [name]
+    lumiar("capture", "--mesh", name, *SMALL, "-o", "a.npy")
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "cp1252", "utf-8"])
+def test_any_encoding_of_the_terminal_will_do(lumiar, encoding):
+    """Titles hold Greek letters, the help an ellipsis; what cannot be shown is spelled out."""
+    env = {"PYTHONIOENCODING": encoding, "PYTHONUTF8": "0"}
+    for arguments in (["list"], ["--help"], ["capture", "--help"], ["info", "phong-blinn"]):
+        done = lumiar(*arguments, env=env, encoding=encoding)
+        assert done.stdout and not done.stderr
+    told = lumiar("capture", "--model", "β", code=2, env=env, encoding=encoding).stderr
+    assert ("β" if encoding == "utf-8" else "\\u03b2") in told
+
+
+@pytest.mark.parametrize("closed", [">&-", "2>&-", ">&- 2>&-", "<&- >&- 2>&-"])
+def test_closed_streams_change_no_picture(lumiar, tmp_path, closed):
+    lumiar("capture", *SMALL, "-o", "open.png")
+    base = f"exec {sys.executable} -m lumiar"
+    for arguments in (f"capture {' '.join(SMALL)} -o closed.png", "list", "--help"):
+        done = subprocess.run(
+            f"{base} {arguments} {closed}", shell=True, cwd=tmp_path, capture_output=True
         )
-    assert pixels(tmp_path / "en.png").shape == pixels(tmp_path / "asked.png").shape
-    assert (pixels(tmp_path / "en.png") == pixels(tmp_path / "asked.png")).all()
-    same = pixels(tmp_path / "en.png").shape == pixels(tmp_path / "pt.png").shape
-    assert not same or (pixels(tmp_path / "en.png") != pixels(tmp_path / "pt.png")).any()
+        assert (done.returncode, done.stderr) == (0, b"")
+    assert (tmp_path / "closed.png").read_bytes() == (tmp_path / "open.png").read_bytes()
+
+
+def test_captions_follow_the_language(lumiar, tmp_path):
+    for name, option, language in (
+        ("en", (), "C"),
+        ("pt", (), "pt_BR.UTF-8"),
+        ("asked-en", ("--lang", "en"), "pt_BR.UTF-8"),
+        ("asked-pt", ("--lang", "pt"), "C"),
+    ):
+        env = {"LC_ALL": "", "LC_MESSAGES": "", "LANG": language}
+        lumiar("capture", "phong-terms", *SMALL, *option, "-o", f"{name}.png", env=env)
+    en, pt, asked_en, asked_pt = (
+        pixels(tmp_path / f"{name}.png") for name in ("en", "pt", "asked-en", "asked-pt")
+    )
+    assert np.array_equal(en, asked_en) and np.array_equal(pt, asked_pt)
+    assert not np.array_equal(en, pt)
+
+
+def test_a_sheet_reopens_in_the_language_it_was_made_in(lumiar, tmp_path):
+    made = ("capture", "phong-terms", *SMALL)
+    lumiar(*made, "--lang", "pt", "-o", "asked.png", env={"LC_ALL": "C"})
+    lumiar(*made, "-o", "spoken.png", env={"LC_ALL": "pt_BR.UTF-8"})
+    for name in ("asked", "spoken"):
+        lumiar("capture", f"{name}.png", "-o", "again.png", env={"LC_ALL": "C"})
+        assert np.array_equal(pixels(tmp_path / "again.png"), pixels(tmp_path / "asked.png"))
 
 
 def test_help_and_version(lumiar):
@@ -442,8 +555,6 @@ def test_a_cached_mesh_needs_only_what_it_needs(lumiar, tmp_path):
 
 
 def test_as_a_library(tmp_path):
-    from lumiar import Scene, capture
-
     picture = capture(Scene.default().set(size=(40, 30), mesh="teapot"))
     assert picture._repr_png_().startswith(b"\x89PNG")
     assert picture.size == (40, 30) and len(picture.pixels) == 40 * 30 * 3

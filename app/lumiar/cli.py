@@ -25,6 +25,9 @@ def main():
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while all is still being imported
     from .supervise import supervised
 
+    while (spare := os.open(os.devnull, os.O_RDWR)) < 3:
+        pass  # in place of a closed stream, whose number a picture would get, and what drivers say
+    os.close(spare)
     gc.disable()  # a short life makes little garbage, and looking for it takes milliseconds
     for stream in (sys.stdout, sys.stderr):
         if stream is not None:  # closed by whoever started us

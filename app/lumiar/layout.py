@@ -43,7 +43,7 @@ def arrange(scene, geometries):
     aspect = scene.size[0] / scene.size[1]
     eye, target = camera.viewpoint(scene.camera, aspect, centre, radius)
     if eye == target:
-        raise Mistake(f"camera.position = {eye} is also its target; move one of them")
+        raise Mistake(f"the eye stands on its target, {target}; move camera.position or the target")
     lens = camera.perspective(scene.camera.fov, aspect, *camera.clip_planes(eye, target, spheres))
     view = camera.product(lens, camera.look_at(eye, target, scene.camera.up))
     placed = []
@@ -84,10 +84,10 @@ def uniforms(scene, placed):
         "rig_turn": _columns(camera.normal_matrix(placed.world), 3),
         "rig_lead": _columns(camera.linear_part(placed.world), 3),
         "rig_eye": struct.pack("3f", *placed.eye),
-        **_packed(placed.object.model, placed.object.values, scene.time, ""),
+        **packed(placed.object.model, placed.object.values, scene.time, ""),
     }
     for i, light in enumerate(scene.lights, 1):
-        values.update(_packed(light.kind, light.values, scene.time, f"_{i}"))
+        values.update(packed(light.kind, light.values, scene.time, f"_{i}"))
     return values
 
 
@@ -111,8 +111,8 @@ def _columns(matrix, n):
     return struct.pack(f"{n * n}f", *(matrix[n * i + j] for j in range(n) for i in range(n)))
 
 
-def _packed(shader, values, time, suffix):
-    """Return {name: bytes} of the parameters that are set while running."""
+def packed(shader, values, time, suffix):
+    """Return {name + suffix: bytes} of the parameters of a shader that are set while running."""
     packed = {}
     for parameter in shader.parameters:
         if parameter.constant:
