@@ -85,19 +85,58 @@ def test_a_gltf_is_its_buffers_too(tmp_path):
         assert geometry.load(str(tmp_path / "t.gltf")).high[1] == height
 
 
-@pytest.mark.parametrize("damage", ["cut", "empty", "noise", "folder"])
+@pytest.mark.parametrize("damage", ["cut", "empty", "noise", "longer", "folder"])
 def test_a_damaged_entry_is_made_again(empty_cache, damage):
     first = bytes_of(geometry.load("sphere:subdivision=1"))
     (entry,) = empty_cache.iterdir()
     data = entry.read_bytes()
     entry.unlink()
+    damaged = {"cut": data[: len(data) // 2], "empty": b"", "noise": b"x" * 500}
+    damaged["longer"] = data + b"\0"
     if damage == "folder":
         entry.mkdir()
     else:
-        entry.write_bytes(
-            {"cut": data[: len(data) // 2], "empty": b"", "noise": b"x" * 500}[damage]
-        )
+        entry.write_bytes(damaged[damage])
     assert bytes_of(geometry.load("sphere:subdivision=1")) == first
+
+
+@pytest.mark.parametrize("part", range(7))
+def test_one_flipped_bit_anywhere_in_an_entry_is_noticed(empty_cache, part):
+    """Its sizes and its key; vertices, tangents, indices, facts and notes."""
+    parts = [bytes([i]) * 100 for i in range(1, 6)]
+    cache.put("key", parts)
+    assert [bytes(one) for one in cache.get("key")[:5]] == parts
+    (entry,) = empty_cache.iterdir()
+    data = bytearray(entry.read_bytes())
+    at = [20, data.index(b"'key'") + 2, *(data.index(bytes([i]) * 100) + 50 for i in range(1, 6))]
+    data[at[part]] ^= 1
+    entry.write_bytes(data)
+    assert cache.get("key") is None
+    cache.put("key", parts)
+    assert [bytes(one) for one in cache.get("key")[:5]] == parts
+
+
+@pytest.mark.parametrize("where", [0.2, 0.5, 0.9])
+def test_a_mesh_with_a_damaged_entry_is_made_again(empty_cache, where):
+    first = bytes_of(geometry.load("sphere:subdivision=1", tangents=True))
+    (entry,) = empty_cache.iterdir()
+    data = bytearray(entry.read_bytes())
+    data[int(len(data) * where)] ^= 0x10
+    entry.write_bytes(data)
+    assert bytes_of(geometry.load("sphere:subdivision=1", tangents=True)) == first
+    assert entry.read_bytes() != bytes(data)  # and stored once more
+
+
+def test_the_cache_is_used_from_many_threads_at_once(empty_cache):
+    def use(i):
+        for _ in range(10):
+            cache.put("shared", [bytes([i]) * 50_000])
+            found = cache.get("shared")  # another thread may have put its own, whole
+            assert found is not None and len(set(bytes(found[0]))) == 1 and len(found[0]) == 50_000
+
+    with ThreadPoolExecutor(8) as pool:
+        list(pool.map(use, range(8)))
+    assert [p.suffix for p in empty_cache.iterdir()] == [".bin"]
 
 
 def test_without_a_place_for_the_cache_all_works(tmp_path, monkeypatch):
