@@ -1,6 +1,7 @@
 """Meshes by name, and the cache of prepared ones."""
 
 import os
+import struct
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -62,14 +63,17 @@ def test_the_cache_goes_by_content_not_by_name_or_time(tmp_path, empty_cache):
     assert len(list(empty_cache.iterdir())) == 2
 
 
-def test_a_gltf_is_its_buffers_too(tmp_path):
-    """The .bin beside a .gltf changes; the .gltf does not."""
+@pytest.mark.parametrize("uri", ["sub/t.bin", r"sub\/t.bin", r"sub/\u0074.bin", "sub/%74.bin"])
+@pytest.mark.parametrize("kind", ["gltf", "glb"])
+def test_a_gltf_is_its_buffers_too(tmp_path, uri, kind):
+    """The .bin beside a file changes, the file does not; however its address is written."""
     import json
 
     def write(height):
         points = np.array([[0, 0, 0], [1, 0, 0], [0, height, 0]], "<f4").tobytes()
-        (tmp_path / "t.bin").write_bytes(points)
+        (tmp_path / "sub" / "t.bin").write_bytes(points)
 
+    (tmp_path / "sub").mkdir()
     tree = {
         "asset": {"version": "2.0"},
         "scenes": [{"nodes": [0]}],
@@ -77,12 +81,17 @@ def test_a_gltf_is_its_buffers_too(tmp_path):
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
         "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
         "bufferViews": [{"buffer": 0, "byteLength": 36}],
-        "buffers": [{"uri": "t.bin", "byteLength": 36}],
+        "buffers": [{"uri": "HERE", "byteLength": 36}],
     }
-    (tmp_path / "t.gltf").write_text(json.dumps(tree))
+    text = json.dumps(tree).replace("HERE", uri).encode()
+    text += b" " * (-len(text) % 4)
+    if kind == "glb":
+        sizes = (2, len(text) + 20, len(text))
+        text = struct.pack("<4s3I4s", b"glTF", *sizes, b"JSON") + text
+    (tmp_path / f"t.{kind}").write_bytes(text)
     for height in (1.0, 5.0):
         write(height)
-        assert geometry.load(str(tmp_path / "t.gltf")).high[1] == height
+        assert geometry.load(str(tmp_path / f"t.{kind}")).high[1] == height
 
 
 @pytest.mark.parametrize("damage", ["cut", "empty", "noise", "longer", "folder"])
@@ -196,6 +205,37 @@ def test_what_is_no_mesh_is_told(spec, told):
     with pytest.raises(Mistake) as mistake:
         geometry.load(spec, where="here: ")
     assert str(mistake.value).startswith("here: ") and told in str(mistake.value)
+
+
+def cube(path, side, at=0.0):
+    corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    sides = ["0 1 3 2", "4 6 7 5", "0 4 5 1", "2 3 7 6", "0 2 6 4", "1 5 7 3"]
+    points = [" ".join(repr(at + side * (c - 0.5)) for c in corner) for corner in corners]
+    path.write_text("\n".join(["OFF", "8 6 0", *points, *(f"4 {side}" for side in sides)]))
+    return str(path)
+
+
+def test_a_mesh_far_away_is_drawn_as_at_the_origin(tmp_path):
+    here = geometry.load(cube(tmp_path / "here.off", 1.0))
+    there = geometry.load(cube(tmp_path / "there.off", 1.0, at=1e7))
+    arrays = [np.frombuffer(one.vertices, np.float32) for one in (here, there)]
+    assert np.abs(arrays[0] - arrays[1]).max() < 1e-6 and there.closed
+    assert (there.indices, here.notes) == (here.indices, ())
+    assert there.notes[0].startswith("moved by (-10000000, -10000000, -10000000)")
+
+
+@pytest.mark.parametrize("side", [1e-46, 1e-40, 1e-19])
+def test_a_mesh_too_small_for_32_bits_is_refused(tmp_path, side):
+    with pytest.raises(Mistake, match=r"small\.off: smaller than 1e-18"):
+        geometry.load(cube(tmp_path / "small.off", side))
+
+
+@pytest.mark.parametrize("side", [1e-17, 1e-6, 1e6, 1e17])
+def test_a_mesh_of_any_other_size_has_the_normals_of_its_shape(tmp_path, side):
+    one = geometry.load(cube(tmp_path / "any.off", side))
+    normals = np.frombuffer(one.vertices, np.float32).reshape(-1, 6)[:, 3:]
+    assert (np.sort(np.abs(normals), axis=1) == [0.0, 0.0, 1.0]).all() and one.closed
+    assert one.radius == pytest.approx(side * 0.75**0.5)
 
 
 def test_bounds_are_of_what_is_drawn(tmp_path):

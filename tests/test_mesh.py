@@ -139,6 +139,58 @@ def test_an_open_mesh_follows_its_normals():
     assert (area(built.positions, built.triangles)[:, 2] > 0).all() and not built.closed
 
 
+def test_a_triangle_wound_against_its_normals_is_turned_alone():
+    """A quad that looks along z by its normals, one half of it wound the other way."""
+    corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    up = {"normals": np.array([[0, 0, 1.0]]), "normal_of": np.zeros(6, int)}
+    for faces in ([[0, 1, 2], [0, 3, 2]], [[0, 2, 1], [0, 2, 3]]):
+        built = mesh.build(polygons(corners, faces, **up))
+        assert np.allclose(area(built.positions, built.triangles), [0, 0, 1])
+        assert (built.normals == [0, 0, 1]).all() and not built.closed
+        assert built.notes == ("1 faces turned to the outside",)
+
+
+@pytest.mark.parametrize("inside_out", [0, 1])
+def test_of_two_solids_one_inside_out_makes_the_mesh_an_open_one(inside_out):
+    """Its back faces can be seen, so they must not be left out."""
+    sides = [SIDES, [side[::-1] for side in SIDES]]
+    both = sides[inside_out] + [[8 + c for c in side] for side in sides[1 - inside_out]]
+    points = np.concatenate([CUBE, CUBE + np.array([5, 0, 0])])
+    assert not mesh.build(polygons(points, both)).closed
+    alike = SIDES + [[8 + c for c in side] for side in SIDES]
+    assert mesh.build(polygons(points, alike)).closed
+    turned = mesh.build(polygons(points, [side[::-1] for side in alike]))
+    assert turned.closed and turned.notes == ("faces turned to the outside",)
+
+
+@pytest.mark.parametrize("away", [1e7, -3e12])
+def test_a_mesh_far_away_keeps_its_shape(away):
+    """A 32-bit float at 1e7 holds whole numbers only: a unit cube there would fall in on itself."""
+    cube, step = CUBE / 2.0, np.spacing(abs(away))
+    there = mesh.brought_near(polygons(cube + np.array([away, 0.0, 2 * away]), SIDES))
+    assert np.abs(there.positions - cube).max() <= max(1e-6, 4 * step)
+    assert len(there.notes) == 1 and there.notes[0].startswith(f"moved by ({-away:.9g}, 0, ")
+    here = mesh.brought_near(polygons(cube + 100.0, SIDES))
+    assert (here.positions == cube + 100.0).all() and here.notes == ()
+
+
+@pytest.mark.parametrize("missing", ["nan", "inf", "1e300", "none", "all"])
+def test_without_texture_coordinates_tangents_are_unit_all_the_same(missing):
+    uvs = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], float)
+    uv_of = np.tile(np.arange(4), 6)
+    if missing == "none":
+        uv_of[2:9] = -1
+    elif missing == "all":
+        uv_of[:] = -1
+    else:
+        uvs[1] = float(missing)
+    cube = mesh.build(polygons(CUBE, SIDES, uvs=uvs, uv_of=uv_of))
+    along = mesh.tangent_frames(cube)
+    assert np.allclose(np.linalg.norm(along[:, :3], axis=1), 1.0)
+    assert np.allclose((along[:, :3] * cube.normals).sum(1), 0.0, atol=1e-12)
+    assert np.isin(along[:, 3], [-1.0, 1.0]).all()
+
+
 def test_degenerate_triangles_are_left_out_and_counted():
     points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 0]]
     built = mesh.build(polygons(points, [[0, 1, 2], [0, 1, 1], [0, 3, 1]]))
@@ -212,10 +264,23 @@ def test_polygons_of_all_sizes_stand_side_by_side():
     assert (corner[-2:] >= 11).all()
 
 
-def test_a_polygon_that_crosses_itself_is_reported():
-    bow = polygons([[0, 0, 0], [2, 2, 0], [2, 0, 0], [0, 2, 0], [-1, 1, 0]], [[0, 1, 2, 3, 4]])
-    corner, notes = triangulate(bow)
-    assert len(corner) == 3 and (not notes or "cross themselves" in notes[0])
+@pytest.mark.parametrize(
+    ("flat", "told"),
+    [
+        ([[0, 0], [2, 2], [2, 0], [0, 2], [-1, 1]], False),  # ears enough
+        ([[4, 3], [3, 1], [4, 0], [2, 3], [4, 2]], True),
+        ([[1, 3], [2, 0], [3, 1], [0, 1], [0, 4], [0, 3]], True),
+    ],
+)
+def test_a_polygon_that_crosses_itself_is_cut_all_the_same(flat, told):
+    """Whatever the cut, the areas with their signs sum to that of the outline (shoelace)."""
+    points = np.array([[x, y, 0] for x, y in flat], float)
+    corner, notes = triangulate(polygons(points, [list(range(len(flat)))]))
+    assert len(corner) == len(flat) - 2
+    x, y, _ = points.T
+    outline = (x * np.roll(y, -1) - y * np.roll(x, -1)).sum()
+    assert area(points, corner)[:, 2].sum() == pytest.approx(outline)
+    assert notes == (("1 polygons that cross themselves cut as fans",) if told else ())
 
 
 def test_a_huge_concave_polygon_is_refused():

@@ -95,7 +95,8 @@ def build(polygons, crease=None, name="mesh"):
         normals = np.where(missing[..., None], corner_normals(p, at, face, CREASE), normals)
     uvs = None
     if polygons.uvs is not None:
-        uvs = np.concatenate([polygons.uvs, np.full((1, 2), np.nan)])[polygons.uv_of[corner]]
+        uvs = np.where(np.abs(polygons.uvs) < 1e30, polygons.uvs, np.nan)  # or as good as missing
+        uvs = np.concatenate([uvs, np.full((1, 2), np.nan)])[polygons.uv_of[corner]]
     first, triangles = _vertices(polygons.corners[corner], normals, uvs)
     uvs = None if uvs is None else uvs.reshape(-1, 2)[first]
     p, normals = p.reshape(-1, 3)[first], normals.reshape(-1, 3)[first]
@@ -114,7 +115,7 @@ def brought_near(polygons):
     centre, size = (low + high) / 2.0, (high - low).max()
     if np.abs(centre).max() <= FAR * size or size == 0.0:
         return polygons
-    moved = ", ".join(f"{-c:g}" for c in centre)
+    moved = ", ".join(f"{0.0 - c:.9g}" for c in centre)
     note = f"moved by ({moved}) to the origin, far from which 32-bit floats cannot hold it"
     return replace(polygons, positions=polygons.positions - centre, notes=(*polygons.notes, note))
 
