@@ -9,6 +9,7 @@ import pytest
 from lumiar import camera, layout
 from lumiar import renderer as module
 from lumiar.errors import Mistake
+from lumiar.parts import Panel
 from lumiar.picture import capture, radiance
 from lumiar.scene import Scene
 
@@ -428,3 +429,190 @@ def test_what_was_compiled_is_kept():
         assert len(renderer._programs) == compiled
         radiance(scene.set(form="normalised"), renderer)
         assert len(renderer._programs) == compiled + 1
+
+
+def test_what_is_released_twice_is_released_once():
+    renderer = module.Renderer()
+    radiance(lit(size=(8, 8)), renderer)
+    renderer.release()
+    renderer.release()
+    with module.Renderer() as other:
+        other.release()
+
+
+def test_progress_rises_to_one(renderer, monkeypatch):
+    scene = lit(size=(50, 37))
+    sheet = scene._replace(panels=(Panel(), Panel(), Panel()))
+    for one, calls, strip in ((scene, 1, 50 * 100), (scene, 6, 50 * 7), (sheet, 3, 50 * 7)):
+        monkeypatch.setattr(module, "STRIP", strip)
+        told = []
+        capture(one, renderer=renderer, progress=told.append)
+        assert len(told) == calls and told == sorted(told) and told[0] > 0.0 and told[-1] == 1.0
+
+
+def test_progress_of_linear_radiance_rises_to_one(renderer, monkeypatch, tmp_path):
+    monkeypatch.setattr(module, "STRIP", 50 * 7)
+    told = []
+    capture(lit(size=(50, 37)), str(tmp_path / "a.npy"), renderer, told.append)
+    assert len(told) > 6 and told == sorted(told) and told[-1] == 1.0
+
+
+@pytest.mark.parametrize(
+    "values",
+    [{"scale": 1e10}, {"scale": 1e-12}, {"fit": 1e6}, {"fit": 1e-6}, {"fit": 1e6, "scale": 1e10}],
+    ids=str,
+)
+@pytest.mark.parametrize("rate", RATES)
+def test_the_camera_frames_an_object_of_any_scale(renderer, values, rate):
+    """The same picture, and no pixel of it broken."""
+    scene = lit("directional", mesh="torus", rotation=(20, 0, 30), shading=rate, background=0.0)
+    found, expected = (radiance(one, renderer) for one in (scene.set(**values), scene))
+    off = np.abs(found - expected).max(2)
+    assert np.mean(off > 2e-3) < 2e-3 and np.isfinite(found).all()  # an edge may cover a pixel more
+
+
+@pytest.mark.parametrize("side", [1e-16, 1e-9, 1e9, 1e16])
+def test_fit_frames_a_mesh_file_of_any_size(renderer, tmp_path, side):
+    scene = lit("directional", fit=1.0, background=0.0)
+    found = radiance(scene.set(mesh=cubes(tmp_path / "any.off", side)), renderer)
+    expected = radiance(scene.set(mesh=cubes(tmp_path / "one.off", 1.0)), renderer)
+    off = np.abs(found - expected).max(2)
+    assert np.mean(off > 1e-4) < 2e-3 and np.isfinite(found).all() and expected.max() > 0.3
+
+
+def cubes(path, side, turned=()):
+    """Write one cube, or with `turned`, one for each of it, inside out where it says so."""
+    faces = ["0 1 3 2", "4 6 7 5", "0 4 5 1", "2 3 7 6", "0 2 6 4", "1 5 7 3"]
+    points, sides = [], []
+    for i, inside_out in enumerate(turned or (False,)):
+        points += [
+            f"{side * (x + 2 * i)!r} {side * y!r} {side * z!r}"
+            for x in (0, 1)
+            for y in (0, 1)
+            for z in (0, 1)
+        ]
+        for face in faces:
+            first, *rest = (str(int(c) + 8 * i) for c in face.split())
+            sides.append(" ".join(["4", first, *rest[:: -1 if inside_out else 1]]))
+    path.write_text("\n".join(["OFF", f"{len(points)} {len(sides)} 0", *points, *sides]) + "\n")
+    return str(path)
+
+
+@pytest.mark.parametrize("rate", RATES)
+@pytest.mark.parametrize("turned", [(True, False), (False, True), (True, True)])
+def test_a_solid_inside_out_is_lit_like_its_right_neighbour(renderer, tmp_path, rate, turned):
+    scene = lit(shading=rate, model="lambert", size=(96, 48), background=0.0)
+    right = radiance(scene.set(mesh=cubes(tmp_path / "right.off", 1.0, (False, False))), renderer)
+    found = radiance(scene.set(mesh=cubes(tmp_path / "some.off", 1.0, turned)), renderer)
+    assert np.mean(np.abs(found - right).max(2) > 1e-5) < 5e-3 and right.max() > 0.1  # its edges
+
+
+@pytest.mark.parametrize("rate", RATES)
+@pytest.mark.parametrize("second", ["1//1 3//1 4//1", "1//1 4//1 3//1"])
+def test_a_quad_is_lit_evenly_however_its_triangles_are_wound(renderer, tmp_path, rate, second):
+    corners = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn 0 0 1\n"
+    (tmp_path / "quad.obj").write_text(f"{corners}f 1//1 2//1 3//1\nf {second}\n")
+    scene = lit("directional", model="lambert", shading=rate, background=0.0)
+    found = radiance(scene.set(mesh=str(tmp_path / "quad.obj")), renderer)
+    seen = found[found.sum(2) > 0.0]
+    values = scene.lights[0].values  # albedo / pi E cos
+    cosine = 0.5 / math.hypot(*values["direction"])
+    expected = np.multiply(values["color"], values["irradiance"]) * cosine * 0.8 / math.pi
+    assert len(seen) > 2000 and np.abs(seen - expected).max() < 1e-5
+
+
+def spotted(light, renderer):
+    """Return the radiance of a small plane at the origin, under a light from above."""
+    scene = Scene.default().set(model="lambert", mesh="plane:width=1e-3", size=(5, 5), samples=1)
+    scene = scene.set(camera__position=(0, 0.002, 0), camera__up=(0, 0, 1), camera__fov=5)
+    return radiance(scene.changed("light", light), renderer)[2, 2, 0]
+
+
+@pytest.mark.parametrize(
+    ("inner", "outer"), [(0.0, 0.01), (0.25, 0.5), (0.5, 0.5), (0.0, 0.0), (89, 90)]
+)
+@pytest.mark.parametrize("place", [(0, 2, 0), (1.3, 2.1, -0.7), (30, 40, 5)])
+def test_on_its_axis_a_spot_is_a_point_light_however_narrow(renderer, inner, outer, place):
+    at = f"position={place[0]},{place[1]},{place[2]}:intensity=9"
+    spot = f"spot:{at}:target=0,0,0:inner={inner}:outer={outer}"
+    if outer == 0.0:
+        assert np.isfinite(spotted(spot, renderer))  # nothing, or a ray
+    else:
+        assert spotted(spot, renderer) == pytest.approx(spotted(f"point:{at}", renderer), rel=1e-5)
+
+
+@pytest.mark.parametrize("angle", [0.2, 0.3, 0.375, 0.45, 0.55])
+def test_a_narrow_spot_falls_as_its_paper_says(renderer, angle):
+    """Smoothstep in the cosine (Pharr et al., sec. 12.2.1), of which float32 holds no digit."""
+    off = 2.0 * math.tan(math.radians(angle))
+    spot = f"spot:position=0,2,0:target={off},0,0:intensity=9:inner=0.25:outer=0.5"
+    inner, outer, cosine = (math.cos(math.radians(a)) for a in (0.25, 0.5, angle))
+    t = min(max((cosine - outer) / (inner - outer), 0.0), 1.0)
+    share = spotted(spot, renderer) / spotted("point:position=0,2,0:intensity=9", renderer)
+    assert share == pytest.approx(t * t * (3.0 - 2.0 * t), abs=2e-3)
+
+
+@pytest.mark.parametrize("rate", RATES)
+def test_a_spot_on_its_own_target_breaks_no_pixel(renderer, rate):
+    scene = lit("spot", shading=rate).set(target=(0.5, 1.5, 1))
+    scene = scene.changed("spot.position", (0.5, 1.5, 1))
+    assert np.isfinite(radiance(scene, renderer)).all()
+
+
+@pytest.mark.parametrize("width", [1000, 20000])
+def test_a_wide_floor_does_not_cut_into_what_stands_on_it(renderer, width):
+    ball = lit("directional", camera__distance=4, camera__target=(0, 0, 0), background=0.0)
+    seen = radiance(ball, renderer).sum(2) > 0.0
+    floor = ball.objects[0]._replace(position=(0.0, -1.0, 0.0))
+
+    def on(width):
+        both = ball._replace(objects=(*ball.objects, floor._replace(mesh=f"plane:width={width}")))
+        return radiance(both, renderer)
+
+    assert seen.sum() > 1000
+    assert np.abs(on(width) - on(100))[seen].max() < 1e-5
+
+
+FRAME = """\
+// model   Frame
+// needs   tangent
+vec3 scatter(vec3 L, vec3 V) { return 0.5 + 0.5 * L; }
+"""
+
+
+@pytest.mark.parametrize("rate", RATES)
+@pytest.mark.parametrize("mesh", ["plane", "torus", "teapot"])
+def test_a_mirrored_object_is_lit_as_in_a_mirror(renderer, tmp_path, rate, mesh):
+    """Scaled by -1 along x, seen and lit from x = 0: the mirrored picture, its bitangents too."""
+    (tmp_path / "frame.glsl").write_text(FRAME)
+    scene = lit("directional", model=str(tmp_path / "frame.glsl"), mesh=mesh, shading=rate)
+    scene = scene.set(direction=(0, 0.8, 0.6), irradiance=1, color=1, background=0.0)
+    scene = scene.set(camera__azimuth=0, camera__elevation=40, camera__target=(0, 0, 0))
+    scene = scene.set(camera__distance=8, size=(64, 64))
+    found = radiance(scene.set(scale=(-1, 1, 1)), renderer)
+    expected = radiance(scene, renderer)[:, ::-1]
+    assert (expected.sum(2) > 0.0).sum() > 100 and np.ptp(expected[..., 1]) > 0.1
+    off = np.abs(found - expected).max(2)
+    assert np.mean(off > 1e-3) < (0.02 if mesh == "teapot" else 5e-3)  # pixels on edges
+
+
+def test_a_mesh_file_that_changed_is_drawn_anew(renderer, tmp_path):
+    path = tmp_path / "t.off"
+    path.write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+    scene = lit("ambient", mesh=str(path), model="lambert", camera__distance=6, background=0.0)
+    scene = scene.set(camera__target=(0, 0, 0), camera__azimuth=0)
+    small = (radiance(scene, renderer) > 0.0).sum()
+    path.write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1.25 0\n3 0 1 2\n")
+    for again in (scene.set(exposure=0.0), scene):
+        assert (radiance(again, renderer) > 0.0).sum() == pytest.approx(1.25 * small, rel=0.1)
+
+
+def test_a_hundred_meshes_are_not_all_kept():
+    with module.Renderer() as renderer:
+        scene = lit("directional", size=(16, 16), shading="flat")
+        first = radiance(scene.set(mesh="uv_sphere:rings=2"), renderer)
+        for rings in range(3, 103):
+            radiance(scene.set(mesh=f"uv_sphere:rings={rings}:segments=4"), renderer)
+            assert len(renderer._meshes) <= module.MESHES + 1
+            assert len(renderer._arrays) <= module.MESHES + 8
+        assert (radiance(scene.set(mesh="uv_sphere:rings=2"), renderer) == first).all()

@@ -46,8 +46,8 @@ def capture(scene, path=None, renderer=None, progress=None):
             return capture(scene, path, renderer, progress)
     folder = os.path.dirname(os.path.abspath(path)) if path else os.getcwd()
     if path and image.ending(path) != ".png":
-        write(scene, path, renderer, progress)
-        path = None
+        write(scene, path, renderer, _half(progress, 0.0))
+        path, progress = None, _half(progress, 0.5)
     if scene.panels:
         if scene.lang == "system":
             scene = scene._replace(lang=scenefile.system_language())
@@ -95,6 +95,11 @@ def radiance(scene, renderer=None):
 def in_language(words, lang):
     """Return the line for a language, else the English one, else any."""
     return words.get(lang) or words.get("en") or next(iter(words.values()), "")
+
+
+def _half(progress, start):
+    """Return what tells `progress` of one half of the work, from a share of `start` on."""
+    return progress and (lambda share: progress(start + 0.5 * share))
 
 
 def _drawn(scene, renderer, progress=None):
