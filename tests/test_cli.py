@@ -76,6 +76,24 @@ def test_a_picture_reopens_as_what_made_it(lumiar, tmp_path):
         assert one == other and one.startswith("size = ")
 
 
+def test_a_sheet_with_a_light_of_its_own_reopens(lumiar, tmp_path):
+    """The light lies beside the scene; where the user is lies another of that name, broken."""
+    (tmp_path / "scene").mkdir()
+    light = "// light   Own\nvec3 environment(vec3 direction) { return vec3(0.9, 0.5, 0.1); }\n"
+    (tmp_path / "scene" / "own.glsl").write_text(light)
+    (tmp_path / "own.glsl").write_text("// light   Broken\n")
+    panels = (
+        "[[panel]]\nset = { light = 'own.glsl', ka = 1 }\n[[panel]]\nset = { light = 'spot' }\n"
+    )
+    (tmp_path / "scene" / "s.toml").write_text(f"size = [40, 30]\n{panels}")
+    lumiar("capture", "scene/s.toml", "-o", "a.png")
+    lumiar("capture", "a.png", "-o", "b.png")
+    lumiar("capture", tmp_path / "a.png", "-o", tmp_path / "c.png", cwd="/")
+    a, b, c = (pixels(tmp_path / f"{name}.png") for name in "abc")
+    assert np.array_equal(a, b) and np.array_equal(a, c)
+    assert (np.ptp(a.astype(int), axis=2) > 100).any()  # sRGB of 0.9 and 0.1: 243 and 89
+
+
 def test_a_picture_is_not_replaced_by_its_own_capture(lumiar, tmp_path):
     lumiar("capture", *SMALL, "-o", "a.png")
     assert "name another with -o" in lumiar("capture", "a.png", code=2).stderr

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from lumiar import catalog, glsltext, parts
+
 ROOT = Path(__file__).parent.parent
 APP = ROOT / "app" / "lumiar"
 FLOORS = [  # lowest first; a module imports only from floors below its own
@@ -53,6 +55,22 @@ def imports(path):
             yield from ((n, ours) for n in names)
 
 
+def test_the_floors_are_those_of_contributing():
+    """A row of its table names modules in backquotes, each before what it is for."""
+    rows = re.findall(r"^\| (\d+) \| (.*) \|$", (ROOT / "CONTRIBUTING.md").read_text(), re.M)
+    table = {int(floor): re.findall(r"`(\w+)/?`", modules) for floor, modules in rows}
+    assert {i: sorted(modules) for i, modules in table.items()} == {
+        i: sorted(names.split()) for i, names in enumerate(FLOORS)
+    }
+
+
+def test_what_parameters_may_not_be_named_is_what_scenes_are_made_of():
+    """`catalog` stands below `parts`, and so has to say the names once more."""
+    assert tuple(parts.SCENE) == catalog.SCENE_KEYS
+    assert {*catalog.OWN_KEYS["model"]} == {*parts.Object._fields} - {"values"}
+    assert {*catalog.OWN_KEYS["light"]} == {*parts.Light._fields} - {"values"}
+
+
 def test_every_module_has_a_floor():
     assert {module_name(path) for path in MODULES} == set(FLOOR)
 
@@ -86,7 +104,8 @@ def test_a_module_is_short_and_says_what_it_is(path):
 def test_a_model_fits_on_a_page(path):
     text = path.read_text()
     assert text.count("\n") <= 60
-    assert not re.search(r"\b(in|out)\s+vec|gl_|texture|dFd[xy]|fwidth", text)
+    code = glsltext.without_comments(text)  # papers are about textures
+    assert not re.search(r"\b(in|out)\s+vec|gl_|texture|dFd[xy]|fwidth", code)
 
 
 def test_nothing_is_left_open():

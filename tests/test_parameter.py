@@ -109,3 +109,13 @@ def test_text_is_read_as_on_a_command_line():
             parameter.read(text)
     with pytest.raises(Mistake):
         Parameter("n", "int", 1, low=1, high=8).read("2.5")
+
+
+@pytest.mark.parametrize("text", ["5e9", "-5e9", "2147483648", "1e30"])
+def test_an_open_whole_number_stays_within_32_bits(text):
+    """An int of GLSL: from -2^31 to 2^31 - 1."""
+    number = Parameter("n", "int", 3, low=0, high=10, open=(True, True))
+    assert number.read("2147483647") == 2**31 - 1
+    for value in (text, float(text)):
+        with pytest.raises(Mistake, match="allowed: a whole number of 32 bits"):
+            number.read(value) if isinstance(value, str) else number.check(value)

@@ -179,6 +179,17 @@ def test_a_scene_is_frozen():
         ("[[object]]\nmesh = '/etc/x.ply'", 2, "lies outside the folder of the scene"),
         ("[[object]]\nmodel = '/etc/x.glsl'", 2, "lies outside the folder of the scene"),
         ("[[panel]]\nset = { mesh = '/etc/x.ply' }", 2, "lies outside the folder of the scene"),
+        ("[[panel]]\nset = { light = '/etc/x.glsl' }", 2, "lies outside the folder of the scene"),
+        ("[[panel]]\nset = { light = '../x.glsl:a=1' }", 2, "../x.glsl lies outside the folder"),
+        ("[[panel]]\nset = { 'object.1.model' = '../x.glsl' }", 2, "lies outside the folder"),
+        ("[[panel]]\nset = { model = '../x.GLSL' }", 2, "lies outside the folder of the scene"),
+        ("[[panel]]\nset = { model = '../x.frag' }", 2, "no model '../x.frag'"),
+        ("[[panel]]\nscene = '../x.obj'", 2, "lies outside the folder of the scene"),
+        ("[[panel]]\nscene = '../x.PNG'", 2, "lies outside the folder of the scene"),
+        ("[[panel]]\nscene = '/etc/x.glsl'", 2, "lies outside the folder of the scene"),
+        ("[[panel]]\nscene = '~/x.toml'", 2, "lies outside the folder of the scene"),
+        ("[[object]]\nmodel = '../x.frag'", 2, "no model '../x.frag'"),
+        ("[[light]]\nkind = '../x.glsl'", 2, "lies outside the folder of the scene"),
         ("a = [1, 2", 1, "not TOML: "),
         ("a = 1\na = 2", 2, "not TOML: "),
         ("x = " + "[" * 20000, 1, "not TOML that can be read"),
@@ -223,6 +234,50 @@ def test_a_link_does_not_lead_out_of_the_folder(tmp_path):
 
 
 @pytest.mark.parametrize(
+    "panel",
+    ["scene = 'link.obj'", "set = { mesh = 'link.obj' }", "set = { light = 'link.glsl' }"],
+)
+def test_a_link_in_a_panel_does_not_lead_out_of_the_folder_either(tmp_path, panel):
+    (tmp_path / "scene").mkdir()
+    for name in ("link.obj", "link.glsl"):
+        (tmp_path / name).write_text("secret\n")
+        (tmp_path / "scene" / name).symlink_to(tmp_path / name)
+    with pytest.raises(Mistake, match="lies outside") as mistake:
+        parsed(f"[[panel]]\n{panel}", str(tmp_path / "scene" / "s.toml"))
+    assert "secret" not in str(mistake.value)
+
+
+def test_a_light_of_a_panel_lies_beside_the_scene(tmp_path, monkeypatch):
+    """And not in the folder where somebody happens to be, which holds another of that name."""
+    text = "// light   Own\nuniform vec3 E = vec3(%d.0);  // [0, 9] tinted: x\n"
+    text += "vec3 environment(vec3 direction) { return E; }\n"
+    (tmp_path / "scene").mkdir()
+    (tmp_path / "own.glsl").write_text(text % 1)
+    (tmp_path / "scene" / "own.glsl").write_text(text % 2)
+    monkeypatch.chdir(tmp_path)
+    path = str(tmp_path / "scene" / "s.toml")
+    scene = parsed("[[panel]]\nset = { light = 'own.glsl:color=0,1,0' }", path)
+    light = f"{tmp_path / 'scene' / 'own.glsl'}:color=0,1,0"
+    assert scene.panels[0].values == (("light", light),)
+    for folder in ("scene", ".", "elsewhere"):  # where a picture of it may be put
+        (tmp_path / folder).mkdir(exist_ok=True)
+        again = parsed(scene.toml(str(tmp_path / folder)), str(tmp_path / folder / "a.png"))
+        assert again == scene
+
+
+def test_the_time_of_a_model_is_that_of_the_scene(tmp_path):
+    model = tmp_path / "own.glsl"
+    model.write_text(
+        "// model   Own\nuniform float age = 0.0;  // time: since the start (s)\n"
+        "vec3 scatter(vec3 L, vec3 V) { return vec3(L.z * exp2(-age)); }\n"
+    )
+    scene = Scene.default().changed("model", str(model))
+    with pytest.raises(Mistake, match=r"^--set: age follows the time of the scene; set time"):
+        scene.changed("age", "5", "--set: ")
+    assert scene.changed("time", "5").time == 5.0
+
+
+@pytest.mark.parametrize(
     ("key", "value", "read"),
     [
         ("exposure", "2", lambda s: s.exposure == 2.0),
@@ -254,6 +309,8 @@ def test_a_value_is_changed_by_its_name(key, value, read):
         ("camera.fv", "no value 'camera.fv'"),
         ("object.3.kd", "no value 'object.3.kd'"),
         ("object.0.kd", "no value"),
+        ("object.².kd", "no value 'object.².kd'"),
+        ("object.١.kd", "no value 'object.١.kd'"),  # a digit, and no number of ours
         ("middle.kd", "no value 'middle.kd'"),
         ("left.albedo", "no value 'left.albedo'"),
         ("", "no value ''"),

@@ -60,7 +60,8 @@ class Parameter(NamedTuple):
             limits = f"{low} to {high}"
         else:
             limits = f"{low} or more" if low else f"up to {high}" if high else "any finite value"
-        whole = "a whole number, " if self.type == "int" else ""
+        bits = " of 32 bits" if any(self.open) else ""
+        whole = f"a whole number{bits}, " if self.type == "int" else ""
         unit = " (degrees)" if self.degrees else ""
         return _COUNTS[SIZES[self.type]] + whole + limits + unit
 
