@@ -406,7 +406,8 @@ def test_list_names_everything(lumiar):
         assert re.search(rf"^  {name}\b", text, re.MULTILINE), name
     data = json.loads(lumiar("list", "--json").stdout)
     assert set(data) == {"models", "lights", "meshes", "scenes"}
-    shininess = next(p for p in data["models"][2]["parameters"] if p["name"] == "shininess")
+    phong = next(model for model in data["models"] if model["name"] == "phong")
+    shininess = next(p for p in phong["parameters"] if p["name"] == "shininess")
     assert (
         shininess["range"] == [1, 1000] and shininess["log"] and shininess["open"] == [False, True]
     )

@@ -67,13 +67,21 @@ def world(spot, points, normals):
     return points @ matrix[:3, :3].T + matrix[:3, 3], oracle.unit(normals @ turn.T)
 
 
+@pytest.fixture
+def current(renderer):
+    """Make the renderer's context the current one, which another renderer may have been."""
+    with renderer.context:
+        yield renderer
+
+
 PLACES = [{}, {"rotation": (20, 35, -10), "scale": (1.3, 0.8, 1.1), "position": (0.2, -0.1, 0.3)}]
 
 
 @pytest.mark.parametrize("place", PLACES, ids=["as it lies", "moved"])
 @pytest.mark.parametrize("form", ["slide", "normalised"])
 @pytest.mark.parametrize("model", ["lambert", "phong", "blinn"])
-def test_gouraud_evaluates_the_model_at_each_vertex(renderer, model, form, place):
+def test_gouraud_evaluates_the_model_at_each_vertex(current, model, form, place):
+    renderer = current
     scene = lit(model=model, form=form, shading="gouraud", mesh="sphere:subdivision=3", **place)
     spot = placed(scene, renderer)[0]
     source = layout.sources(scene, spot)["vertex"].text
@@ -89,7 +97,8 @@ def test_gouraud_evaluates_the_model_at_each_vertex(renderer, model, form, place
 @pytest.mark.parametrize("place", PLACES, ids=["as it lies", "moved"])
 @pytest.mark.parametrize("model", ["lambert", "phong", "blinn"])
 @pytest.mark.parametrize("mesh", ["sphere:subdivision=2", "sphere:subdivision=7"])
-def test_flat_evaluates_the_model_once_per_face(renderer, model, mesh, place):
+def test_flat_evaluates_the_model_once_per_face(current, model, mesh, place):
+    renderer = current
     scene = lit(model=model, shading="flat", mesh=mesh, **place)
     spot = placed(scene, renderer)[0]._replace(closed=False)  # back faces too
     sources = layout.sources(scene, spot)
