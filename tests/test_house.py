@@ -14,15 +14,18 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "errors",
     "files",
     "parameter cache supervise polygons reference_terms camera tomltext driverlog glsltext "
-    "difference contract image sheet",
-    "catalog mesh reference",
-    "formats shapes",
+    "difference contract image sheet gonio captions",
+    "catalog mesh reference tables panels",
+    "formats shapes plots",
     "geometry compose parts",
     "settings layout",
     "scenefile",
     "scene",
     "renderer report",
-    "picture options",
+    "picture options measure",
+    "hostile measuring",
+    "examine",
+    "audit",
     "verbs",
     "cli",
 ]
@@ -34,6 +37,7 @@ HOMES = {  # a heavy library and the modules that may know it
     "PIL": {"image", "sheet"},
     "isal": {"image", "cache"},
     "flip_evaluator": {"difference"},
+    "matplotlib": {"panels", "plots"},
 }
 MODULES = sorted(p for p in APP.rglob("*.py") if p.name not in ("__init__.py", "__main__.py"))
 

@@ -1,5 +1,6 @@
 """What each GLSL file says of itself: its header, its parameters, its claims."""
 
+import math
 import os
 import re
 from typing import NamedTuple
@@ -60,6 +61,31 @@ class Shader(NamedTuple):
     def defaults(self):
         """Return {parameter name: default value}."""
         return {parameter.name: parameter.default for parameter in self.parameters}
+
+    def in_radians(self, values):
+        """Return values with those given in degrees in radians, as the shader takes them."""
+        angles = {p.name: math.radians(values[p.name]) for p in self.parameters if p.degrees}
+        return {**values, **angles}
+
+    def covers(self, claim, values):
+        """Return whether a claim of the header speaks of these values."""
+        condition = self.claims.get(claim)
+        if not condition:
+            return condition is not None
+        name, _, value = (part.strip() for part in condition.partition("="))
+        return str(values[name]) == value
+
+    def changes(self, values):
+        """Return in words where values differ from the defaults."""
+        said = []
+        for parameter in self.parameters:
+            value = values[parameter.name]
+            if value != parameter.default:
+                same = isinstance(value, tuple) and len(set(value)) == 1
+                value = value[0] if same else value
+                shown = f"{value:.6g}" if isinstance(value, float) else str(value)
+                said.append(f"{parameter.name} = {shown}")
+        return ", ".join(said) or "the defaults"
 
     def parameter(self, name, where=""):
         """Return the parameter of that name; raise Mistake with the closest spelling."""

@@ -25,6 +25,7 @@ MAX_FILES, MAX_DEPTH = 256, 64
 MAX_UNIFORMS, MAX_ARRAY = 1024, 4096  # beyond, a driver's compiler may crash instead of complaining
 
 _MACRO = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)", re.MULTILINE)
+_HIDING = re.compile(r"\b(max|min|clamp)(?=\s*\()")  # what may drop a NaN
 _LOOP = re.compile(r"\b(?:for|while)\b")
 
 
@@ -54,7 +55,6 @@ def surface(model, lights, rate, constants, two_sided=True, transformed=True):
         "transformed": transformed,
         "tangent": "tangent" in model.needs,
         "surround": bool(kinds["environment"]) and "surround" in model.defines,
-        "looping": False,
     }
     frame = f"lib/frame_{'tangent' if facts['tangent'] else 'normal'}.glsl"
     places = {
@@ -65,13 +65,25 @@ def surface(model, lights, rate, constants, two_sided=True, transformed=True):
         ],
         "FRAME": [_load(frame)],
     }
-    sources = {}
-    for stage, file in STAGES[rate].items():
-        sources[stage] = _finish(_flatten(f"rigs/{file}", places, kinds, facts))
-        if _loops(sources[stage]):
-            looping = {**facts, "looping": True}
-            sources[stage] = _finish(_flatten(f"rigs/{file}", places, kinds, looping))
-    return sources
+    return {
+        stage: _watched(f"rigs/{file}", places, kinds, facts)
+        for stage, file in STAGES[rate].items()
+    }
+
+
+def measured(model, constants, what, strict=False):
+    """Return the sources {stage: Source} that evaluate a model, a pair of directions per pixel.
+
+    what is "scatter", "surround" (in a white furnace), or "timed": scatter again and again. strict
+    lets no NaN get lost in max, min or clamp.
+    """
+    places = {"MODEL": [(model.path, "models", _fixed(model, constants))]}
+    facts = {word: word == what for word in ("scatter", "surround", "timed")}
+    facts["strict"] = strict
+    return {
+        "vertex": _finish(_flatten("rigs/screen.vert", {}, {}, {})),
+        "fragment": _watched("rigs/measure.frag", places, {}, facts),
+    }
 
 
 def screen(rig, constants):
@@ -82,6 +94,15 @@ def screen(rig, constants):
         "vertex": _finish(_flatten("rigs/screen.vert", {}, {}, {})),
         "fragment": _finish(_flatten("RIG", places, {}, {})),
     }
+
+
+def _watched(file, places, kinds, facts):
+    """Return the Source of a rig, which looks out for loops cut short if it draws any."""
+    strict = facts.get("strict", False)
+    source = _finish(_flatten(file, places, kinds, {**facts, "looping": False}), strict)
+    if not _loops(source):
+        return source
+    return _finish(_flatten(file, places, kinds, {**facts, "looping": True}), strict)
 
 
 def _load(name):
@@ -208,8 +229,14 @@ def _marked(line, repeats, facts):
     return [code.rstrip()] if holds else []
 
 
-def _finish(lines):
+def _finish(lines, strict=False):
     """Return the Source of flattened lines: what main() reaches, if compilers can bear it."""
+    if strict:
+        rigs = os.path.join(GLSL, "rigs", "")
+        lines = [
+            (line if path.startswith(rigs) else _HIDING.sub(r"rig_\1", line), path, number)
+            for line, path, number in lines
+        ]
     raw = [line for line, _, _ in lines]
     bare = without_comments("\n".join(raw)).split("\n")
     dropped = set()

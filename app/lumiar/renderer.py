@@ -40,6 +40,19 @@ def open_context():
         raise Mistake(f"needs OpenGL 3.3, but none could be opened ({reason}); {INSTALL}") from None
 
 
+def compiled(context, sources):
+    """Return the program of sources {stage: Source}; raise Mistake naming file:line."""
+    texts = {f"{stage}_shader": source.text for stage, source in sources.items()}
+    try:
+        return context.program(**texts)
+    except moderngl.Error as error:
+        from . import driverlog
+
+        path, line, message = driverlog.locate(str(error), sources)
+        where = f"{path}:{line}: " if path else ""
+        raise Mistake(f"{where}the driver does not compile this: {message}") from None
+
+
 class Renderer:
     """Draws scenes in one OpenGL context, its own unless one is given; release it or use `with`."""
 
@@ -177,16 +190,8 @@ class Renderer:
         return self._arrays[key]
 
     def _compile(self, sources):
-        texts = {f"{stage}_shader": source.text for stage, source in sources.items()}
-        self._watches_loops |= any("rig_cut_short" in text for text in texts.values())
-        try:
-            return self.context.program(**texts)
-        except moderngl.Error as error:
-            from . import driverlog
-
-            path, line, message = driverlog.locate(str(error), sources)
-            where = f"{path}:{line}: " if path else ""
-            raise Mistake(f"{where}the driver does not compile this: {message}") from None
+        self._watches_loops |= any("rig_cut_short" in one.text for one in sources.values())
+        return compiled(self.context, sources)
 
     def _mesh(self, one):
         """Return (Geometry, vertex, tangent and index buffer) of an object's mesh."""
@@ -207,6 +212,7 @@ class Renderer:
         for buffer in buffers:
             buffer.release()
         self._meshes.clear()
+        self._drawn = (None, [])  # its arrays are gone, too
 
     def _array(self, program, entry):
         """Return the vertex array that feeds a mesh to a program, without what it does not take."""

@@ -15,3 +15,9 @@ Frame tangent_frame(vec3 N, vec4 tangent) {
 vec3 to_local(vec3 w, Frame frame) {
     return w * frame.axes;
 }
+
+// A direction of the frame turned back into the world.
+// w: unit, local
+vec3 from_local(vec3 w, Frame frame) {
+    return frame.axes * w;
+}

@@ -2,9 +2,10 @@
 // compose.py puts files in the places named LIGHTS, MODEL and FRAME, repeats a line marked "each
 // light" for every light, and keeps a line marked "where ..." only where that holds.
 #include "LIGHTS"
-#include "rigs/environment.glsl"
-#include "MODEL"
 #include "FRAME"
+#include "rigs/environment.glsl"
+#include "rigs/loops.glsl"
+#include "MODEL"
 
 uniform vec3 rig_eye;
 
@@ -12,15 +13,8 @@ vec3 rig_reflected(Incident incident, Frame frame, vec3 V) {
     return incident.irradiance * scatter(to_local(incident.direction, frame), V);
 }
 
-// Mesa's software renderer leaves all loops of a shader after 65 535 steps together, without a word.
-// One more loop, of two or three steps and none a compiler could unroll, tells whether it did.
-bool rig_cut_short(float x) {
-    int steps = 0, wanted = 2 + int(floatBitsToUint(x) >> 31);
-    while (steps < wanted) ++steps;
-    return steps < wanted;
-}
-
 vec3 rig_radiance(vec3 position, Frame frame) {
+    rig_here = frame;  // where surround
     vec3 V = to_local(normalize(rig_eye - position), frame);
     vec3 radiance = vec3(0.0);
     radiance += rig_reflected(light(position, vec2(0.5)), frame, V);  // each light

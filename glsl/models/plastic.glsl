@@ -1,0 +1,40 @@
+// model   Plastic
+// paper   B. Walter et al., EGSR 2007, for the coat; below it a Lambertian base whose light is reflected
+//         back by the coat any number of times: J. Saunderson, Journal of the Optical Society of America
+//         32, 1942
+// claims  positive, reciprocal, conserving
+// note    a composite: pigment under a rough dielectric coat
+#include "lib/fresnel.glsl"
+#include "lib/microfacet.glsl"
+
+uniform vec3 kd = vec3(0.6, 0.1, 0.08);  // color: albedo of the base (unitless)
+uniform float eta = 1.5;                 // [1.1, 3]: index of refraction of the coat (unitless)
+uniform float alpha = 0.1;               // [0.001, 1] log: roughness of the coat (unitless)
+uniform int distribution = 0;            // {ggx, beckmann}: D, the facets' slopes
+uniform int shadowing = 0;               // {smith, separable}: G, height-correlated or not
+
+// What the base sends out per irradiance that reaches it, past a coat of mean reflectance F inside.
+vec3 base() {
+    float inside = 1.0 - (1.0 - F_average_dielectric(eta)) / (eta * eta);
+    return kd / (eta * eta * (1.0 - kd * inside));
+}
+
+vec3 scatter(vec3 L, vec3 V) {
+    vec3 H = L + V;
+    float square = dot(H, H);
+    if (L.z <= 0.0 || V.z <= 0.0 || square < 1e-12) return vec3(0.0);  // 1e-12: L = -V, no half vector
+    vec2 a = vec2(alpha);
+    bool ggx = distribution == DISTRIBUTION_GGX;
+    float D = ggx ? D_ggx(H, a) : D_beckmann(H, a);
+    float M_L = ggx ? M_ggx(L, a) : M_beckmann(L, a), M_V = ggx ? M_ggx(V, a) : M_beckmann(V, a);
+    float G = shadowing == SHADOWING_SMITH ? G_correlated(L.z, V.z, M_L, M_V) : G_separable(L.z, V.z, M_L, M_V);
+    float F = F_dielectric(min(0.5 * sqrt(square), 1.0), eta).x;
+    float T = F_dielectric(min(L.z, 1.0), eta).y * F_dielectric(min(V.z, 1.0), eta).y;
+    return vec3(F * D * G) + base() * (T * INV_PI * L.z);
+}
+
+vec3 surround(vec3 V) {
+    if (V.z <= 0.0) return vec3(0.0);
+    float T = F_dielectric(min(V.z, 1.0), eta).y * (1.0 - F_average_dielectric(eta));
+    return base() * T * environment(vec3(0.0, 0.0, 1.0));
+}

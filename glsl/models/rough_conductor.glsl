@@ -1,0 +1,48 @@
+// model   Rough conductor
+// paper   B. Walter et al., "Microfacet models for refraction through rough surfaces", EGSR 2007;
+//         f82: N. Hoffman, 2019; compensated: C. Kulla and A. Conty, SIGGRAPH 2017
+// claims  positive, reciprocal, conserving
+// needs   tangent
+// note    a metal of complex index eta + i k at three wavelengths; assets/materials has measured ones
+#include "lib/energy.glsl"
+#include "lib/fresnel.glsl"
+#include "lib/microfacet.glsl"
+
+uniform vec3 eta = vec3(0.14, 0.503, 1.428);   // [0.01, 10]: index of refraction, here gold's (unitless)
+uniform vec3 k = vec3(3.702, 2.312, 1.937);    // [0, 12]: extinction coefficient (unitless)
+uniform vec3 f0 = vec3(1.0, 0.71, 0.29);       // color: reflectance at normal incidence, for schlick and f82
+uniform vec3 f82 = vec3(0.966, 0.858, 0.661);  // color: reflectance at 82 degrees, for f82
+uniform float alpha = 0.2;                     // [0.001, 1] log: roughness along the tangent (unitless)
+uniform float alpha_y = 0.5;                   // [0.001, 1] log: roughness across it, if anisotropic (unitless)
+uniform int form = 0;                          // {exact, schlick, f82}: the Fresnel reflectance
+uniform int distribution = 0;                  // {ggx, beckmann}: D, the facets' slopes
+uniform int shadowing = 0;                     // {smith, separable}: G, height-correlated or not
+uniform bool anisotropic = false;              // toggle: another roughness across the tangent
+uniform bool compensated = false;              // toggle: what one bounce loses comes back, if isotropic
+
+vec3 scatter(vec3 L, vec3 V) {
+    vec3 H = L + V;
+    float square = dot(H, H);
+    if (L.z <= 0.0 || V.z <= 0.0 || square < 1e-12) return vec3(0.0);  // 1e-12: L = -V, no half vector
+    vec2 a = vec2(alpha, anisotropic ? alpha_y : alpha);
+    bool ggx = distribution == DISTRIBUTION_GGX;
+    float D = ggx ? D_ggx(H, a) : D_beckmann(H, a);
+    float M_L = ggx ? M_ggx(L, a) : M_beckmann(L, a), M_V = ggx ? M_ggx(V, a) : M_beckmann(V, a);
+    float G = shadowing == SHADOWING_SMITH ? G_correlated(L.z, V.z, M_L, M_V) : G_separable(L.z, V.z, M_L, M_V);
+    float c = min(0.5 * sqrt(square), 1.0);  // L.H of unit directions
+    vec3 dip = form == FORM_F82 ? F82_dip(f0, f82) : vec3(0.0);
+    vec3 F = form == FORM_EXACT ? 1.0 - A_conductor(c, eta, k) : F_f82(f0, dip, c);
+    vec3 value = F * (D * G);
+    if (compensated && !anisotropic) {  // its loss has no known fit there
+        vec3 front = f0;
+        if (form == FORM_EXACT) {
+            front = 1.0 - A_conductor(1.0, eta, k);
+            dip = F82_dip(front, 1.0 - A_conductor(1.0 / 7.0, eta, k));
+        }
+        vec3 mean = clamp(F_average(front, dip), 0.0, 1.0);
+        value += ggx
+            ? bounced(L.z, deficit_ggx(L.z, alpha), deficit_ggx(V.z, alpha), deficit_average_ggx(alpha), mean)
+            : bounced(L.z, deficit_beckmann(L.z, alpha), deficit_beckmann(V.z, alpha), deficit_average_beckmann(alpha), mean);
+    }
+    return value;
+}

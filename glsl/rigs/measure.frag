@@ -1,0 +1,26 @@
+// The model at one pair of directions per pixel: the text that draws is the text that is measured.
+#include "rigs/furnace.glsl"
+#include "rigs/loops.glsl"
+#include "rigs/strict.glsl"
+#include "MODEL"
+
+uniform sampler2D rig_L;  // to the light, local frame
+uniform sampler2D rig_V;  // to the eye
+uniform int rig_repeats;  // where timed
+
+out vec4 rig_out;
+
+void main() {
+    ivec2 pair = ivec2(gl_FragCoord.xy);
+    vec3 L = texelFetch(rig_L, pair, 0).xyz, V = texelFetch(rig_V, pair, 0).xyz;
+    vec3 sum = vec3(0.0);  // where timed
+    for (int i = 0; i < rig_repeats; ++i) {  // where timed
+        L = texelFetch(rig_L, (pair + i) & 255, 0).xyz;  // where timed
+        V = texelFetch(rig_V, (pair - i) & 255, 0).xyz;  // where timed
+        sum += scatter(L, V) + 1e-30 * (L + V);  // where timed
+    }  // where timed
+    rig_out = vec4(sum, 1.0);  // where timed
+    rig_out = vec4(scatter(L, V), 1.0);  // where scatter
+    rig_out = vec4(surround(V), 1.0);  // where surround
+    if (rig_cut_short(V.x)) rig_out = vec4(uintBitsToFloat(0x7fc00000u));  // where looping
+}
