@@ -536,7 +536,7 @@ def test_help_and_version(lumiar):
     assert lumiar("--help").stdout.startswith("usage: lumiar VERB")
     assert lumiar().stdout == lumiar("help").stdout
     assert re.fullmatch(r"lumiar \d+\.\d+\.\d+\n", lumiar("--version").stdout)
-    for verb in ("capture", "info", "source", "compare", "list"):
+    for verb in ("capture", "info", "source", "compare", "measure", "list"):
         assert f"usage: lumiar {verb}" in lumiar(verb, "--help").stdout
 
 
@@ -562,7 +562,8 @@ def test_eight_at_once_make_the_same_bytes(tmp_path):
 
 def test_a_cached_mesh_needs_only_what_it_needs(lumiar, tmp_path):
     lumiar("capture", "--mesh", "suzanne", *SMALL)
-    heavy = "numpy PIL trimesh pyrr glfw imgui_bundle tomllib json asyncio shutil lumiar.mesh"
+    heavy = "numpy matplotlib PIL trimesh pyrr glfw imgui_bundle tomllib json asyncio shutil"
+    heavy += " lumiar.mesh"
     code = (
         "import sys; from lumiar import cli\n"
         "cli.run(['capture', '--mesh', 'suzanne', '--size', '48x32'])\n"

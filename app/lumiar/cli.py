@@ -3,13 +3,14 @@
 import os
 import sys
 
-VERBS = ("capture", "info", "source", "compare", "list")
+VERBS = ("capture", "info", "source", "compare", "measure", "list")
 HELP = """usage: lumiar VERB … (lumiar VERB --help tells more)
 
   capture [SCENE]  draw a scene to a picture: .png, or .hdr and .npy for linear radiance
   info FILE        what a mesh, a model, a light, a scene or a Lumiar picture holds
   source [SCENE]   the GLSL of a scene, exactly as compiled
   compare A B      how two pictures differ; exit code 1 beyond a limit you give
+  measure MODEL …  scatter, lobes and albedo of models at any angles: .csv, .npz or a picture
   list             the models, lights, meshes and scenes there are
 
 SCENE is a shipped scene, a .toml file, a .png that Lumiar made, a mesh or a .glsl model.

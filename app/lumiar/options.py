@@ -18,6 +18,10 @@ class _Help(argparse.HelpFormatter):
 
 
 class _Parser(argparse.ArgumentParser):
+    def __init__(self, *arguments, **named):
+        super().__init__(*arguments, **named)
+        self._negative_number_matcher = re.compile(r"-\.?\d")  # so that -90:90:1 is no option
+
     def error(self, message):
         found = re.match(r"unrecognized arguments: (--\S+)", message)
         if found:
@@ -54,13 +58,18 @@ def scene(options):
     if options.light:
         lights = (settings.light(spec, "--light: ", here) for spec in options.light)
         one = one._replace(lights=tuple(lights))
-    pairs = []
+    return settings.all_changed(one, pairs(options), "--set: ", here)
+
+
+def pairs(options):
+    """Return the [(key, value)] of `--set`; raise Mistake for what has no equals sign."""
+    found = []
     for setting in options.set:
         key, equals, value = setting.partition("=")
         if not equals:
             raise Mistake(f"--set {setting}: write --set key=value")
-        pairs.append((key.strip(), value))
-    return settings.all_changed(one, pairs, "--set: ", here)
+        found.append((key.strip(), value))
+    return found
 
 
 def _check_sheet(one, options):
@@ -193,6 +202,67 @@ def _compare(parser):
     _timeout(parser)
 
 
+def _measure(parser):
+    parser.add_argument(
+        "models",
+        nargs="+",
+        metavar="MODEL[:KEY=VALUE…]",
+        help="name or .glsl file: ward:alpha_x=0.3",
+    )
+    parser.add_argument(
+        "--set", action="append", default=[], metavar="KEY=VALUE", help="in all models that have it"
+    )
+    text = "of the light from the normal (default: 0,30,60,80)"
+    parser.add_argument("--light", type=_angles, metavar="DEG[,DEG…]", help=text)
+    text = "of the light about the normal, from the tangent"
+    parser.add_argument("--azimuth", type=_between(-360.0, 360.0), metavar="DEG", help=text)
+    scan = parser.add_mutually_exclusive_group()
+    text = "scan in the plane of incidence, negative on the light's side (default: -90:90:1)"
+    scan.add_argument("--detector", type=_steps, metavar="LOW:HIGH:STEP", help=text)
+    text = "scan all directions instead, at these steps"
+    scan.add_argument("--hemisphere", type=_between(0.01, 90.0), metavar="DEG", help=text)
+    text = "half-angle of the detector's cone, over which the mean is taken"
+    parser.add_argument("--aperture", type=_between(0.0, 90.0), metavar="DEG", help=text)
+    text = "relative deviation of the detector's noise: 0.02"
+    parser.add_argument("--noise", type=_between(0.0, 10.0), metavar="SIGMA", help=text)
+    parser.add_argument("--seed", type=_seed, metavar="N", help="of the noise (default: 0)")
+    text = ".csv or .npz; without it and --plot, CSV is printed"
+    parser.add_argument("-o", "--out", "--output", metavar="FILE", help=text)
+    text = "lobes and albedo: .png, .svg or .pdf"
+    parser.add_argument("--plot", metavar="FILE", help=text)
+    text = "a measurement to draw as points; again for more"
+    parser.add_argument("--overlay", action="append", default=[], metavar="FILE", help=text)
+    text = "exactly the pairs L, V (n,3) in it, to --out FILE.npz: scatter, surround"
+    parser.add_argument("--directions", metavar="FILE.npz", help=text)
+    parser.add_argument("--lang", choices=("en", "pt"), help="language of the picture")
+    _timeout(parser)
+
+
+def _between(low, high):
+    return lambda text: _number(text, f"a number, {low:g} to {high:g}", lambda x: low <= x <= high)
+
+
+def _seed(text):
+    if text.isdecimal() and text.isascii() and len(text) <= 18:
+        return int(text)
+    raise argparse.ArgumentTypeError(f"'{text}' is not a whole number, 0 or more")
+
+
+def _angles(text):
+    angle = _between(0.0, 180.0)
+    return tuple(dict.fromkeys(angle(part) for part in text.split(",")))
+
+
+def _steps(text):
+    try:
+        low, high, step = map(float, text.split(":"))
+        if -180.0 <= low <= high <= 180.0 and 1e-4 <= step <= 360.0:
+            return low, high, step
+    except ValueError:
+        pass
+    raise argparse.ArgumentTypeError(f"'{text}' is not LOW:HIGH:STEP in degrees, as in -90:90:1")
+
+
 def _list(parser):
     parser.add_argument("kind", nargs="?", choices=("models", "lights", "meshes", "scenes"))
     parser.add_argument("--json", action="store_true", help="with every parameter, for programs")
@@ -203,5 +273,6 @@ _VERBS = {
     "info": ("Tell what a mesh, a model, a light, a scene or a Lumiar picture holds.", _info),
     "source": ("Print the GLSL of a scene, each stage exactly as compiled.", _source),
     "compare": ("Measure how picture B differs from A; exit 1 beyond a limit.", _compare),
+    "measure": ("Measure models at any angles, as a gonioreflectometer would.", _measure),
     "list": ("List what there is to choose from.", _list),
 }

@@ -114,6 +114,90 @@ def compare(options):
     return 1 if over else 0
 
 
+def measure(options):
+    """Measure models: a table, a picture of lobes and albedo, or exact pairs of directions."""
+    _check_measure(options)
+    if options.timeout:
+        limit_time(options.timeout)
+    from . import files, measuring, tables
+    from .measure import Instrument
+    from .scenefile import system_language
+
+    models = measuring.chosen(options.models, given.pairs(options), os.getcwd())
+    if options.directions:
+        return _measure_exactly(models[0], options)
+    overlays = [(os.path.basename(path), tables.read(path)) for path in options.overlay]
+    setup = measuring.Setup(
+        options.light or measuring.LIGHTS,
+        options.azimuth or 0.0,
+        options.detector,
+        options.hemisphere or 0.0,
+        options.aperture or 0.0,
+        options.noise or 0.0,
+        options.seed or 0,
+    )
+    table, drawn = None, b""
+    with Instrument() as instrument:
+        if options.out or not options.plot or setup.noise or setup.aperture:
+            table = measuring.measurement(instrument, models, setup)
+        if options.plot:
+            lang, ending = options.lang or system_language(), _ending(options.plot)
+            said = ", ".join(options.set)
+            drawn = measuring.picture(
+                instrument, models, setup, options.light, table, overlays, lang, ending, said
+            )
+    if options.out:
+        files.write_whole(options.out, tables.written(table, _ending(options.out)))
+        print(options.out)
+    if options.plot:
+        files.write_whole(options.plot, [drawn])
+        print(options.plot)
+    if not options.out and not options.plot:
+        for chunk in tables.written(table, ".csv"):
+            sys.stdout.write(chunk.decode())
+    return 0
+
+
+def _measure_exactly(model, options):
+    from . import files, measuring, tables
+    from .measure import Instrument
+
+    L, V = tables.pairs(options.directions)
+    with Instrument() as instrument:
+        data, broken = measuring.exact(instrument, model, L, V)
+    files.write_whole(options.out, [data])
+    print(options.out)
+    if broken:
+        print(f"lumiar: {options.out}: {broken} of {len(L)} pairs are not finite", file=sys.stderr)
+    return 0
+
+
+def _check_measure(options):
+    """Refuse options of `measure` that do not go together, before anything is opened."""
+    if options.directions:
+        alone = ("light", "azimuth", "detector", "hemisphere", "aperture", "noise", "seed")
+        for name in (*alone, "plot", "overlay"):
+            if getattr(options, name) not in (None, []):
+                raise Mistake(f"--{name}: --directions measures exactly its pairs; leave one out")
+        if len(options.models) > 1:
+            raise Mistake(f"--directions: {len(options.models)} models; name one")
+        if not options.out or _ending(options.out) != ".npz":
+            raise Mistake("--directions: write where to, as in --out scatter.npz")
+        if os.path.abspath(options.out) == os.path.abspath(options.directions):
+            raise Mistake(f"{options.out}: would replace the directions; write to another file")
+    if options.overlay and not options.plot:
+        raise Mistake("--overlay: draws into a picture; add --plot lobes.png")
+    for path, endings in ((options.out, ".csv or .npz"), (options.plot, ".png, .svg or .pdf")):
+        if path:
+            if not _ending(path) or _ending(path) not in endings.replace(",", "").split():
+                raise Mistake(f"{path}: ends in {endings}; write one of these")
+            _check_folder(path)
+
+
+def _ending(path):
+    return os.path.splitext(path)[1].lower()
+
+
 def list(options):
     """Print the models, lights, meshes and scenes there are."""
     from . import report
