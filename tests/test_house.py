@@ -17,7 +17,7 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "difference contract image sheet gonio captions",
     "catalog mesh reference tables panels",
     "formats shapes plots",
-    "geometry compose parts",
+    "geometry compose parts materials",
     "settings layout",
     "scenefile",
     "scene",

@@ -20,11 +20,22 @@ DEFINES = {
     "light": {
         "light": "Incident light(vec3 position, vec2 u)",
         "environment": "vec3 environment(vec3 direction)",
+        "ambience": "vec3 ambience(vec3 normal)",
     },
 }
 REQUIRED = {"model": ("scatter",), "light": ("light", "environment")}  # one of these
 OWN_KEYS = {  # scene keys of an object or a light, which no parameter may take over
-    "model": ("mesh", "model", "name", "position", "rotation", "scale", "fit", "crease"),
+    "model": (
+        "mesh",
+        "model",
+        "material",
+        "name",
+        "position",
+        "rotation",
+        "scale",
+        "fit",
+        "crease",
+    ),
     "light": ("kind", "name"),
 }
 SCENE_KEYS = (  # of the scene itself, which no parameter may take over either
@@ -150,6 +161,8 @@ def parse(kind, name, path, text):
     if wanted and not defines.intersection(REQUIRED[kind]):
         either = " or ".join(wanted[name] for name in REQUIRED[kind])
         raise Mistake(f"{path}:1: a {kind} must define {either}")
+    if "environment" in defines and kind == "light" and "ambience" not in defines:
+        raise Mistake(f"{path}:1: a light with environment also defines {wanted['ambience']}")
     header, places = _header(lines)
     needs = tuple(header.get("needs", "").replace(",", " ").split())
     for word in needs:

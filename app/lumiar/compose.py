@@ -45,7 +45,7 @@ def surface(model, lights, rate, constants, two_sided=True, transformed=True):
     of faces too; transformed moves the object from where its mesh lies. Raises Mistake naming
     file:line.
     """
-    kinds = {word: [] for word in ("light", "environment")}
+    kinds = {word: [] for word in ("light", "environment", "ambience")}
     for i, light in enumerate(lights, 1):
         for word in kinds:
             if word in light.defines:

@@ -52,6 +52,12 @@ def scene(options):
         value = getattr(options, key)
         if value is not None:
             one = one.changed(key, value, f"--{key}: ", here)
+    if options.material:
+        from . import materials
+
+        where, keep = "--material: ", options.model is not None
+        objects = (materials.applied(o, options.material, keep, where) for o in one.objects)
+        one = one._replace(objects=tuple(objects))
     most = scenefile.SECTIONS["light"]
     if options.light and len(options.light) > most:
         raise Mistake(f"--light: {len(options.light)} lights; allowed: up to {most}")
@@ -75,7 +81,7 @@ def pairs(options):
 def _check_sheet(one, options):
     """Refuse options that a sheet of other scenes would silently ignore."""
     others = [os.path.basename(panel.scene) for panel in one.panels if panel.scene]
-    keys = ("model", "mesh", "shading", "light", "set", "size", "samples", "vary")
+    keys = ("model", "material", "mesh", "shading", "light", "set", "size", "samples", "vary")
     given = [key for key in keys if getattr(options, key, None)]
     if others and given:
         advice = f"draw one of them: {', '.join(others)}"
@@ -119,6 +125,7 @@ def _scene_options(parser):
         "scene", nargs="?", metavar="SCENE", help="default: a sphere under one light"
     )
     parser.add_argument("--model", metavar="NAME|FILE.glsl", help="model of all objects")
+    parser.add_argument("--material", metavar="NAME", help="of all objects: gold, glass …")
     parser.add_argument("--mesh", metavar="NAME|FILE", help="mesh of all objects: torus:minor=0.2")
     parser.add_argument("--shading", metavar="RATE", help="flat, gouraud or phong")
     parser.add_argument(
@@ -264,7 +271,8 @@ def _steps(text):
 
 
 def _list(parser):
-    parser.add_argument("kind", nargs="?", choices=("models", "lights", "meshes", "scenes"))
+    kinds = ("models", "lights", "meshes", "materials", "scenes")
+    parser.add_argument("kind", nargs="?", choices=kinds)
     parser.add_argument("--json", action="store_true", help="with every parameter, for programs")
 
 

@@ -3,7 +3,7 @@
 import json
 import os
 
-from . import catalog, geometry, scenefile
+from . import catalog, geometry, materials, scenefile
 from .errors import Mistake, nearest
 from .scene import Scene
 
@@ -40,6 +40,7 @@ def everything(kind=None, as_json=False, lang="en"):
             for n, parameters in geometry.SHAPES.items()
         ]
         + [{"name": n, "file": path} for n, path in geometry.shipped().items()],
+        "materials": [_material(n) for n in materials.names()],
         "scenes": [_titled(n) for n in scenefile.shipped()],
     }
     found = {key: value for key, value in found.items() if kind in (None, key)}
@@ -54,6 +55,11 @@ def everything(kind=None, as_json=False, lang="en"):
             names = ", ".join(p["name"] for p in entry.get("parameters", ()))
             lines.append(f"  {entry['name']:14} {about}{': ' if about and names else ''}{names}")
     return "\n".join(lines)
+
+
+def _material(name):
+    one = materials.read(name)
+    return {"name": name, "title": one.title, "model": one.model, "values": one.values}
 
 
 def _read_shader(name):

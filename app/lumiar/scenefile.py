@@ -186,19 +186,25 @@ def _camera(file, data):
 
 def _object(file, index, data):
     where = partial(file.at, section="object", index=index)
-    names = _names(data, {"name": "", "mesh": "sphere", "model": "phong"}, where)
+    names = _names(data, {"name": "", "mesh": "sphere", "model": "phong", "material": ""}, where)
     _confine(file, names["mesh"], "mesh", where("mesh"))
     _confine(file, names["model"], "model", where("model"))
     mesh = geometry.canonical(names["mesh"], file.folder, where("mesh"))
     model = catalog.read("model", names["model"], where("model"), file.folder)
+    one = Object(model, model.defaults(), mesh, names["name"])
+    if names["material"]:
+        from . import materials
+
+        one = materials.applied(one, names["material"], "model" in data, where("material"))
+    model, values = one.model, dict(one.values)
     _check_keys(data, [*catalog.OWN_KEYS["model"], *model.defaults()], where)
-    own, values = {}, model.defaults()
+    own = {}
     for key, value in data.items():
         if key in OBJECT:
             own[key] = settings.object_value(key, value, where(key))
         elif key not in names:
             values[key] = model.parameter(key).check(value, where(key))
-    return Object(model, values, mesh, names["name"], **own)
+    return one._replace(values=values, **own)
 
 
 def _light(file, index, data):

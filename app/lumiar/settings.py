@@ -10,7 +10,8 @@ from .parts import CAMERA, OBJECT, SCENE, Light
 def changed(scene, key, value, where="", folder=""):
     """Return the scene with one value changed.
 
-    key    a value of the scene (`exposure`) or of its camera (`camera.fov`); `model`, `mesh` and
+    key    a value of the scene (`exposure`) or of its camera (`camera.fov`); `model`, `material`,
+           `mesh` and
            the values of objects (`rotation`), for all objects; `light`, which replaces all lights;
            a parameter (`shininess`), for all objects whose model has it, else for all such lights;
            or one of those behind the name or number of an object or light: `left.kd`,
@@ -46,14 +47,16 @@ def all_changed(scene, pairs, where="", folder=""):
 
     A model brings its own defaults along, which must not undo what was set beside it.
     """
-    for key, value in sorted(pairs, key=lambda pair: pair[0].rpartition(".")[2] != "model"):
+    order = {"model": 0, "material": 1}
+    for key, value in sorted(pairs, key=lambda pair: order.get(pair[0].rpartition(".")[2], 2)):
         scene = changed(scene, key, value, where, folder)
     return scene
 
 
 def keys(scene):
     """Return every key that `changed` takes for this scene, without those behind numbers."""
-    names = [*SCENE, *(f"camera.{name}" for name in CAMERA), "model", "mesh", "light", *OBJECT]
+    names = [*SCENE, *(f"camera.{name}" for name in CAMERA), "model", "material", "mesh"]
+    names += ["light", *OBJECT]
     for one in (*scene.objects, *scene.lights):
         names += one.values
         names += (f"{one.name}.{value}" for value in one.values if one.name)
@@ -123,7 +126,7 @@ def _addressed(scene, key):
 
 
 def _takes(one, key):
-    return key in ("mesh", "model") or key in OBJECT or key in one.values
+    return key in ("mesh", "model", "material") or key in OBJECT or key in one.values
 
 
 def _object_with(one, key, value, where, folder):
@@ -131,6 +134,10 @@ def _object_with(one, key, value, where, folder):
         return one._replace(mesh=geometry.canonical(str(value), folder, where))
     if key == "model":
         return _with_model(one, catalog.read("model", str(value), where, folder))
+    if key == "material":
+        from . import materials
+
+        return materials.applied(one, str(value), where=where)
     if key in OBJECT:
         value = object_value(key, _typed(OBJECT[key], value, where), where)
         return one._replace(**{key: value})

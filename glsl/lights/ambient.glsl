@@ -4,3 +4,7 @@ uniform vec3 radiance = vec3(1.0);  // [0, 5 ..] tinted: L, the same in every di
 vec3 environment(vec3 direction) {
     return radiance;
 }
+
+vec3 ambience(vec3 normal) {
+    return radiance;
+}

@@ -32,5 +32,5 @@ vec3 scatter(vec3 L, vec3 V) {
 }
 
 vec3 surround(vec3 V) {
-    return ambient ? ka * environment(vec3(0.0, 0.0, 1.0)) : vec3(0.0);
+    return ambient ? ka * ambience(vec3(0.0, 0.0, 1.0)) : vec3(0.0);
 }

@@ -52,5 +52,5 @@ vec3 scatter(vec3 L, vec3 V) {
 }
 
 vec3 surround(vec3 V) {
-    return kd * environment(vec3(0.0, 0.0, 1.0));
+    return kd * ambience(vec3(0.0, 0.0, 1.0));
 }

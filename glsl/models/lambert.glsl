@@ -14,5 +14,5 @@ vec3 scatter(vec3 L, vec3 V) {
 
 vec3 surround(vec3 V) {
     float share = form == FORM_SLIDE ? PI : 1.0;
-    return albedo * share * environment(vec3(0.0, 0.0, 1.0));
+    return albedo * share * ambience(vec3(0.0, 0.0, 1.0));
 }

@@ -57,5 +57,5 @@ vec3 scatter(vec3 L, vec3 V) {
 }
 
 vec3 surround(vec3 V) {
-    return albedo * environment(vec3(0.0, 0.0, 1.0));
+    return albedo * ambience(vec3(0.0, 0.0, 1.0));
 }

@@ -36,5 +36,5 @@ vec3 scatter(vec3 L, vec3 V) {
 vec3 surround(vec3 V) {
     if (V.z <= 0.0) return vec3(0.0);
     float T = F_dielectric(min(V.z, 1.0), eta).y * (1.0 - F_average_dielectric(eta));
-    return base() * T * environment(vec3(0.0, 0.0, 1.0));
+    return base() * T * ambience(vec3(0.0, 0.0, 1.0));
 }

@@ -13,5 +13,5 @@ vec3 scatter(vec3 L, vec3 V) {
 }
 
 vec3 surround(vec3 V) {
-    return albedo * opacity * environment(vec3(0.0, 0.0, 1.0)) + (1.0 - opacity) * environment(-V);
+    return albedo * opacity * ambience(vec3(0.0, 0.0, 1.0)) + (1.0 - opacity) * environment(-V);
 }

@@ -7,3 +7,10 @@ vec3 environment(vec3 direction) {
     radiance += environment(world);  // each environment
     return radiance;
 }
+
+// The mean radiance about a direction of the local frame, weighted by the cosine: irradiance over pi.
+vec3 ambience(vec3 normal) {
+    vec3 world = from_local(normal, rig_here), radiance = vec3(0.0);
+    radiance += ambience(world);  // each ambience
+    return radiance;
+}

@@ -2,3 +2,7 @@
 vec3 environment(vec3 direction) {
     return vec3(1.0);
 }
+
+vec3 ambience(vec3 normal) {
+    return vec3(1.0);
+}
