@@ -1,9 +1,13 @@
 """The data sheet: shipped models are as they claim, and broken ones are caught."""
 
+import json
 import math
+import subprocess
+import sys
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from lumiar import audit, catalog, hostile, measure, reference
 
@@ -220,3 +224,31 @@ def test_the_hard_directions_hold_what_breaks_formulas():
     near = np.unique(z[np.abs(z - critical) < 3e-7])
     assert len(near) >= 3 and near.min() < critical < near.max()
     assert all((np.abs(w + one).max(axis=1) < 1e-6).any() for one in w[:20])
+
+
+def test_the_verb_serves_in_ci(lumiar, tmp_path):
+    body = "vec3 scatter(vec3 L, vec3 V) { return vec3(0.3 * max(L.z, 0.0)); }\n"
+    (tmp_path / "good.glsl").write_text(
+        "// model   Good\n// claims  positive, reciprocal, conserving\n" + body
+    )
+    (tmp_path / "bad.glsl").write_text(
+        "// model   Bad\n// claims  positive, reciprocal, conserving\n" + body.replace("0.3", "0.5")
+    )
+    assert "as claimed" in lumiar("audit", "good.glsl").stdout
+    assert "BROKEN" in lumiar("audit", "bad.glsl", code=1).stdout
+    sheets = json.loads(lumiar("audit", ".", "--json", code=1).stdout)
+    assert [bool(sheet["broken"]) for sheet in sheets.values()] == [True, False]
+    (tmp_path / "none.glsl").write_text("// model   None\nvec3 scatter(vec3 L, vec3 V) {\n")
+    done = subprocess.run(
+        [sys.executable, "-m", "lumiar", "audit", "good.glsl", "none.glsl"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 2 and done.stderr.count("\n") == 1 and "none.glsl:2" in done.stderr
+    assert "as claimed" in done.stdout
+    lumiar("audit", "good.glsl", "-o", "page.png", "--lang", "pt")
+    with Image.open(tmp_path / "page.png") as page:
+        assert page.width >= 1600
+    told = lumiar("audit", "good.glsl", "bad.glsl", "-o", "page.png", code=2).stderr
+    assert "one page shows one model" in told

@@ -405,7 +405,7 @@ def test_list_names_everything(lumiar):
     for name in ("phong", "directional", "torus_knot", "suzanne", "phong-terms"):
         assert re.search(rf"^  {name}\b", text, re.MULTILINE), name
     data = json.loads(lumiar("list", "--json").stdout)
-    assert set(data) == {"models", "lights", "meshes", "scenes"}
+    assert set(data) == {"models", "lights", "meshes", "materials", "scenes"}
     phong = next(model for model in data["models"] if model["name"] == "phong")
     shininess = next(p for p in phong["parameters"] if p["name"] == "shininess")
     assert (

@@ -71,7 +71,7 @@ def test_the_floors_are_those_of_contributing():
 def test_what_parameters_may_not_be_named_is_what_scenes_are_made_of():
     """`catalog` stands below `parts`, and so has to say the names once more."""
     assert tuple(parts.SCENE) == catalog.SCENE_KEYS
-    assert {*catalog.OWN_KEYS["model"]} == {*parts.Object._fields} - {"values"}
+    assert {*catalog.OWN_KEYS["model"]} == {*parts.Object._fields, "material"} - {"values"}
     assert {*catalog.OWN_KEYS["light"]} == {*parts.Light._fields} - {"values"}
 
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from . import catalog, compose, measure
+from . import catalog, compose, gonio, measure, settings
 from .examine import Examination
 
 CURVE = (*map(float, range(0, 90, 5)), 87.5, 89.0)  # degrees of the albedo curve
@@ -73,6 +73,60 @@ def text(sheet):
     out.append(f"  compiled    {made['lines']} lines of GLSL; {made['settings']} settings tried")
     out += [f"  BROKEN      {line}" for line in sheet["broken"]] or ["  verdict     as claimed"]
     return "\n".join(out)
+
+
+def page(sheet, model, instrument, renderer, lang):
+    """Return the bytes of a PNG: a data sheet as one page, with a picture of the model."""
+    from . import measuring, panels, picture, plots
+    from .captions import TEXT
+    from .scene import Scene
+
+    chosen = measuring.Chosen(model, model.defaults(), sheet["title"])
+    evaluate = measuring.evaluator(instrument, chosen)
+    how = (0.0, chosen.highest, chosen.eta)
+    curves = [
+        panels.Curve(chosen.label, light, *gonio.lobe(evaluate, light, *how))
+        for light in measuring.LIGHTS
+    ]
+    scene = Scene.default().set(model=model.path, size=(480, 480), samples=16)
+    scene = scene.changed("light", "directional:direction=0.5,0.7,0.9")
+    more = settings.light("studio:radiance=0.5")
+    shot = picture.capture(scene._replace(lights=(*scene.lights, more)), renderer=renderer)
+    words = TEXT[lang]["sheet"]
+    claims = tuple(
+        (
+            words[name],
+            words["no"] if said["claimed"] == "no" else words["yes"],
+            words[said["verdict"]],
+            said["verdict"] in ("holds", "does not hold"),
+        )
+        for name, said in sheet["claims"].items()
+    )
+    facts = plots.Sheet(
+        sheet["title"],
+        sheet["paper"],
+        claims,
+        tuple(curves),
+        measuring.albedo(instrument, chosen, 0.0),
+        tuple(_facts(sheet, words)),
+    )
+    return plots.data_sheet(facts, shot.pixels, shot.size, lang)
+
+
+def _facts(sheet, words):
+    """Yield the (label, value) texts of a data sheet's numbers."""
+    hard, cost, made = sheet["hostile"], sheet["cost"], sheet["compiled"]
+    yield words["evaluations"], f"{hard['evaluations']:,}".replace(",", " ")
+    for kind in ("nan", "infinite", "negative"):
+        yield words[kind], str(hard[kind])
+    for part, found in (sheet["error"] or {}).items():
+        yield words[f"error {part}"], f"{found['max']:.1e}"
+        yield words["inherent"], f"{found['inherent']:.1e}"
+    yield words["cost"], f"{cost['ns']:.2f} ns"
+    if cost["lambert_ns"] > 0.0:
+        yield words["times"], f"{cost['ns'] / cost['lambert_ns']:.1f}"
+    yield words["lines"], str(made["lines"])
+    yield words["settings"], str(made["settings"])
 
 
 def _curve(model, instrument):

@@ -161,8 +161,6 @@ def parse(kind, name, path, text):
     if wanted and not defines.intersection(REQUIRED[kind]):
         either = " or ".join(wanted[name] for name in REQUIRED[kind])
         raise Mistake(f"{path}:1: a {kind} must define {either}")
-    if "environment" in defines and kind == "light" and "ambience" not in defines:
-        raise Mistake(f"{path}:1: a light with environment also defines {wanted['ambience']}")
     header, places = _header(lines)
     needs = tuple(header.get("needs", "").replace(",", " ").split())
     for word in needs:

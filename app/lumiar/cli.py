@@ -3,7 +3,7 @@
 import os
 import sys
 
-VERBS = ("capture", "info", "source", "compare", "measure", "list")
+VERBS = ("capture", "info", "source", "compare", "measure", "audit", "list")
 HELP = """usage: lumiar VERB … (lumiar VERB --help tells more)
 
   capture [SCENE]  draw a scene to a picture: .png, or .hdr and .npy for linear radiance
@@ -11,11 +11,13 @@ HELP = """usage: lumiar VERB … (lumiar VERB --help tells more)
   source [SCENE]   the GLSL of a scene, exactly as compiled
   compare A B      how two pictures differ; exit code 1 beyond a limit you give
   measure MODEL …  scatter, lobes and albedo of models at any angles: .csv, .npz or a picture
-  list             the models, lights, meshes and scenes there are
+  audit [MODEL …]  the data sheet: claims tested, hard cases, float32 error, cost; 1 if broken
+  list             the models, lights, meshes, materials and scenes there are
 
 SCENE is a shipped scene, a .toml file, a .png that Lumiar made, a mesh or a .glsl model.
-exit codes: 0 done; 1 the renderer or the disk failed, or compare found too much; 2 a mistake in
-what was given; 3 broken pixels under --strict; 130 and 143 interrupted and terminated"""
+exit codes: 0 done; 1 the renderer or the disk failed, compare found too much, or audit a broken
+claim; 2 a mistake in what was given; 3 broken pixels under --strict; 130 and 143 interrupted and
+terminated"""
 
 
 def main():

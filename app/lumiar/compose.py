@@ -50,6 +50,8 @@ def surface(model, lights, rate, constants, two_sided=True, transformed=True):
         for word in kinds:
             if word in light.defines:
                 kinds[word].append(f"{word}_{i}")
+            elif word == "ambience" and "environment" in light.defines:
+                kinds[word].append(f"environment_{i}")
     facts = {
         "two_sided": two_sided,
         "transformed": transformed,

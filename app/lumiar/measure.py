@@ -36,6 +36,8 @@ class Instrument:
         self.context = context or open_context()
         self._owns_context = context is None
         self._programs, self._pairs = {}, []
+        with self.context:
+            self._idle = self.context.framebuffer([self.context.renderbuffer((1, 1))])
 
     def __enter__(self):
         return self
@@ -47,9 +49,10 @@ class Instrument:
         """Free everything on the graphics card; the second time does nothing."""
         if self.context is None:
             return
-        for program, array in self._programs.values():
-            array.release()
-            program.release()
+        with self.context:
+            for program, array in self._programs.values():
+                array.release()
+                program.release()
         for pairs in self._pairs:
             self.forget(pairs)
         if self._owns_context:
@@ -62,8 +65,10 @@ class Instrument:
 
     def forget(self, pairs):
         """Free the memory of Pairs."""
-        for made in (pairs.target, *pairs.target.color_attachments, pairs.L, pairs.V):
-            made.release()
+        with self.context:  # another one may be the current one
+            self._idle.use()  # a framebuffer that goes while bound leaves an error behind
+            for made in (pairs.target, *pairs.target.color_attachments, pairs.L, pairs.V):
+                made.release()
         self._pairs = [one for one in self._pairs if one is not pairs]
 
     def scatter(self, model, values, pairs, strict=False):
@@ -73,11 +78,13 @@ class Instrument:
         keeps every NaN, which drivers may drop in max, min and clamp. Raises Mistake naming
         file:line for what the driver does not compile.
         """
-        return self._measured(model, values, pairs, "scatter", strict)
+        with self.context:
+            return self._measured(model, values, pairs, "scatter", strict)
 
     def surround(self, model, values, pairs, strict=False):
         """Return the radiance toward V of Pairs, (n, 3) float32, when it is 1 all around."""
-        return self._measured(model, values, pairs, "surround", strict)
+        with self.context:
+            return self._measured(model, values, pairs, "surround", strict)
 
     def cost(self, model, values):
         """Return (ns of an evaluation, its interquartile range), those of an empty model taken off.
@@ -85,27 +92,27 @@ class Instrument:
         The median over CALM runs, alternating with the empty model's, on directions that are all
         above the surface. Only its ratio to another model's on the same machine means anything.
         """
-        nothing = catalog.parse("model", "nothing", "nothing.glsl", NOTHING)
-        side, repeats = TIMED
         pairs = self._timed_pairs()
-        jobs = [(nothing, {}), (model, values)]
-        spent = []
-        for run in range(CALM + 1):
-            pair = []
-            for one, its in jobs:
-                array = self._prepared(one, its, "timed", repeats)
-                pairs.target.use()
-                pairs.L.use(0)
-                pairs.V.use(1)
-                self.context.finish()
-                start = time.perf_counter()
-                array.render(vertices=3)
-                self.context.finish()
-                pair.append(time.perf_counter() - start)
-            if run:  # the first one still compiles
-                spent.append((pair[1] - pair[0]) * 1e9 / (side * side * repeats))
-        low, middle, high = statistics.quantiles(spent, n=4)
+        with self.context:  # which does not nest
+            spent = [self._race(model, values, pairs) for _ in range(CALM + 1)]
+        low, middle, high = statistics.quantiles(spent[1:], n=4)  # the first one compiled
         return middle, high - low
+
+    def _race(self, model, values, pairs):
+        """Return how many ns an evaluation takes longer than one of a model that does nothing."""
+        spent = []
+        nothing = catalog.parse("model", "nothing", "nothing.glsl", NOTHING)
+        for one, its in ((nothing, {}), (model, values)):
+            array = self._prepared(one, its, "timed", TIMED[1])
+            pairs.target.use()
+            pairs.L.use(0)
+            pairs.V.use(1)
+            self.context.finish()
+            start = time.perf_counter()
+            array.render(vertices=3)
+            self.context.finish()
+            spent.append(time.perf_counter() - start)
+        return (spent[1] - spent[0]) * 1e9 / (TIMED[0] ** 2 * TIMED[1])
 
     def _timed_pairs(self):
         """Return Pairs above the surface, spread evenly, in a square texture of TIMED pixels."""
@@ -118,14 +125,13 @@ class Instrument:
 
     def _upload(self, L, V, size):
         textures = []
-        for w in (L, V):
-            texels = np.zeros((size[0] * size[1], 4), np.float32)
-            texels[: len(w), :3] = w
-            texels[len(w) :] = (0.0, 0.0, 1.0, 0.0)
-            texture = self.context.texture(size, 4, texels, dtype="f4")
-            texture.filter = (9728, 9728)  # GL_NEAREST
-            textures.append(texture)
-        target = self.context.framebuffer([self.context.texture(size, 4, dtype="f4")])
+        with self.context:
+            for w in (L, V):
+                texels = np.zeros((size[0] * size[1], 4), np.float32)
+                texels[: len(w), :3] = w
+                texels[len(w) :] = (0.0, 0.0, 1.0, 0.0)
+                textures.append(self.context.texture(size, 4, texels, dtype="f4"))
+            target = self.context.framebuffer([self.context.texture(size, 4, dtype="f4")])
         pairs = Pairs(len(L), *textures, target)
         self._pairs.append(pairs)
         return pairs
@@ -141,7 +147,8 @@ class Instrument:
 
     def active(self, model, values):
         """Return the names of the parameters that count under the choices and toggles of values."""
-        program = self._prepared(model, values, "scatter", strict=True).program
+        with self.context:
+            program = self._prepared(model, values, "scatter", strict=True).program
         return [p.name for p in model.parameters if p.name in program]
 
     def _prepared(self, model, values, what, repeats=0, strict=False):

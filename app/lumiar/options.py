@@ -245,6 +245,15 @@ def _measure(parser):
     _timeout(parser)
 
 
+def _audit(parser):
+    text = "name, .glsl file or folder of them (default: all that come with Lumiar)"
+    parser.add_argument("models", nargs="*", metavar="MODEL", help=text)
+    parser.add_argument("--json", action="store_true", help="for programs")
+    parser.add_argument("-o", "--output", metavar="FILE.png", help="one model's sheet as a page")
+    parser.add_argument("--lang", choices=("en", "pt"), help="language of the page")
+    _timeout(parser)
+
+
 def _between(low, high):
     return lambda text: _number(text, f"a number, {low:g} to {high:g}", lambda x: low <= x <= high)
 
@@ -281,6 +290,7 @@ _VERBS = {
     "info": ("Tell what a mesh, a model, a light, a scene or a Lumiar picture holds.", _info),
     "source": ("Print the GLSL of a scene, each stage exactly as compiled.", _source),
     "compare": ("Measure how picture B differs from A; exit 1 beyond a limit.", _compare),
+    "audit": ("Test what models claim, and how exact and fast they are; exit 1 if broken.", _audit),
     "measure": ("Measure models at any angles, as a gonioreflectometer would.", _measure),
     "list": ("List what there is to choose from.", _list),
 }

@@ -9,6 +9,8 @@ from . import options as given
 from .errors import Mistake
 from .supervise import limit_time
 
+AUDIT_TIME = 900.0  # seconds: every model there is takes about a minute
+
 
 def capture(options):
     """Draw a scene to a picture and print its path."""
@@ -112,6 +114,62 @@ def compare(options):
         if options.output:
             print(f"{options.output}  (white: {white:.6g})")
     return 1 if over else 0
+
+
+def audit(options):
+    """Print the data sheets of models; 1 when one is not as it claims, 2 when one is no model."""
+    limit_time(options.timeout or AUDIT_TIME)
+    import json
+
+    from . import audit as sheets
+    from . import catalog
+    from .measure import Instrument
+
+    names = [name for one in options.models for name in _models_of(one)] or catalog.names("model")
+    if options.output:
+        if len(names) > 1 or _ending(options.output) != ".png":
+            raise Mistake(f"{options.output}: one page shows one model, as a .png")
+        _check_folder(options.output)
+    found, code = {}, 0
+    with Instrument() as instrument:
+        for name in names:
+            try:
+                model = catalog.read("model", name, "", os.getcwd())
+                found[name] = sheets.audit(model, instrument)
+            except Mistake as mistake:
+                if len(names) == 1:
+                    raise
+                print(f"lumiar: {mistake}", file=sys.stderr)
+                code = 2
+                continue
+            if not options.json:
+                print(sheets.text(found[name]), flush=True)
+            if options.output:
+                _write_page(options, found[name], model, instrument)
+    if options.json:
+        print(json.dumps(found, indent=2))
+    return code or int(any(sheet["broken"] for sheet in found.values()))
+
+
+def _models_of(name):
+    """Return the models that a name stands for: itself, or every .glsl file of a folder."""
+    if not os.path.isdir(name):
+        return [name]
+    if files := sorted(f for f in os.listdir(name) if f.endswith(".glsl")):
+        return [os.path.join(name, f) for f in files]
+    raise Mistake(f"{name}: holds no .glsl file; name a model")
+
+
+def _write_page(options, sheet, model, instrument):
+    from . import audit as sheets
+    from . import files
+    from .renderer import Renderer
+    from .scenefile import system_language
+
+    with Renderer(instrument.context) as renderer:
+        lang = options.lang or system_language()
+        files.write_whole(options.output, [sheets.page(sheet, model, instrument, renderer, lang)])
+    print(options.output)
 
 
 def measure(options):

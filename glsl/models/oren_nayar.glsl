@@ -27,7 +27,6 @@ vec3 scatter(vec3 L, vec3 V) {
     if (L.z <= 0.0 || V.z <= 0.0) return vec3(0.0);
     float s = dot(L.xy, V.xy);              // sin(theta_i) sin(theta_r) cos(phi_i - phi_r)
     float steepest = L.z / max(L.z, V.z);   // cos(theta_i) / cos(beta): bounded, unlike tan(beta)
-    float variance = sigma * sigma;
     if (form == FORM_ENERGY_PRESERVING) {
         float A = 1.0 / (1.0 + LOST * roughness);
         vec2 apart = L.xy + V.xy;           // 1 + s, which is small behind the light
@@ -35,15 +34,16 @@ vec3 scatter(vec3 L, vec3 V) {
         float single = s > 0.0 ? L.z + roughness * s * steepest : L.z * (1.0 - roughness + roughness * up);
         float lost = A * roughness, mean = lost * LOST_MEAN;
         vec3 again = albedo * albedo * (1.0 - mean) / (1.0 - albedo * mean);
-        float share = lost / LOST_MEAN * lost_share(L) * lost_share(V) * L.z;
-        return INV_PI * (albedo * A * single + again * share);
+        again *= lost / LOST_MEAN * lost_share(L) * lost_share(V) * L.z;
+        return INV_PI * (albedo * A * single + again);
     }
+    float variance = sigma * sigma;
     float one = 1.0 - 0.5 * variance / (variance + 0.33), two = 0.45 * variance / (variance + 0.09);
     if (form == FORM_QUALITATIVE) return albedo * (INV_PI * (one * L.z + two * max(s, 0.0) * steepest));
     float sin_L = length(L.xy), sin_V = length(V.xy);
     float turn = s / max(sin_L * sin_V, 1e-30);  // cos(phi_i - phi_r); 1e-30: any, where it does not count
-    bool first = L.z > V.z;                      // alpha is the larger angle, beta the smaller
-    float sin_alpha = first ? sin_V : sin_L, sin_beta = first ? sin_L : sin_V;
+    // alpha is the larger angle, beta the smaller
+    float sin_alpha = L.z > V.z ? sin_V : sin_L, sin_beta = L.z > V.z ? sin_L : sin_V;
     float cos_alpha = min(L.z, V.z), rise = 2.0 / PI * angle_of(max(L.z, V.z), sin_beta);
     float b = 1.0 - rise, ab = 2.0 / PI * b * angle_of(sin_alpha, cos_alpha);
     // sin(alpha) - b^3, both nearly 1 at grazing: the differences from 1
@@ -52,8 +52,7 @@ vec3 scatter(vec3 L, vec3 V) {
     float half_tangent = (sin_L + sin_V) * L.z / (L.z + V.z);  // tan((alpha + beta) / 2) cos(theta_i)
     float third = 0.125 * variance / (variance + 0.09) * ab * ab * (1.0 - abs(turn)) * half_tangent;
     float again = 0.17 * variance / (variance + 0.13) * (1.0 - turn * b * b) * L.z;
-    // At large sigma the published sum goes a little below 0 (-1e-4): no light can
-    return INV_PI * albedo * max(one * L.z + two * second + third + again * albedo, 0.0);
+    return INV_PI * albedo * max(one * L.z + two * second + third + again * albedo, 0.0);  // or -1e-4
 }
 
 vec3 surround(vec3 V) {

@@ -1,21 +1,25 @@
-"""Fit 1 - E(mu, alpha), single-scattering albedo deficit (F = 1, height-correlated Smith), to rationals.
+"""Fit what one bounce loses, 1 - E(mu, alpha), to the rationals of glsl/lib/energy.glsl.
 
-Truth: E(mu) = int D_visible(m) G2/G1 dm (Heitz 2014/2018), over microfacet slopes. The slopes whose reflection
-leaves the surface form a disc, r < t cos(phi) + sqrt(1 + t^2 cos^2(phi)), t = tan(theta): with t cos(phi) =
-sinh(w) it is r < exp(w), which Gauss-Legendre resolves at every mu and alpha (about 1e-9).  NumPy only.
+python tests/benchmarks/fit_energy.py prints the coefficients and the errors they leave; 30 seconds.
+Truth: E(mu) = int D_visible(m) G2/G1 dm (E. Heitz, 2014) over the slopes of the facets. Those that
+reflect above the surface form a disc, r < t cos(phi) + sqrt(1 + t^2 cos^2(phi)), t = tan(theta):
+with t cos(phi) = sinh(w) it is r < exp(w), which Gauss-Legendre resolves to 1e-9.
 """
+
 import math
 import sys
+
 import numpy as np
+
 erf = np.vectorize(math.erf, otypes=[float])
 
 
 def smith(kind, c, alpha):
     at = alpha * np.sqrt(np.maximum(1 - c * c, 0)) / c
-    if kind == 'ggx':
-        return .5 * (np.sqrt(1 + at * at) - 1)
-    v = np.minimum(1 / np.maximum(at, 1e-300), 30.)
-    return np.maximum(.5 * (erf(v) - 1) + np.exp(-v * v) / (2 * v * math.sqrt(math.pi)), 0)
+    if kind == "ggx":
+        return 0.5 * (np.sqrt(1 + at * at) - 1)
+    v = np.minimum(1 / np.maximum(at, 1e-300), 30.0)
+    return np.maximum(0.5 * (erf(v) - 1) + np.exp(-v * v) / (2 * v * math.sqrt(math.pi)), 0)
 
 
 def true_deficit(kind, mu, alpha, n=48):
@@ -24,28 +28,41 @@ def true_deficit(kind, mu, alpha, n=48):
     t = max(s / mu, 1e-6)
     top = math.asinh(t)
     w = top * np.sin(x * math.pi / 2)
-    dphi = top * np.cos(x * math.pi / 2) * np.cosh(w) / np.sqrt(t * t - np.sinh(w) ** 2) * wx * math.pi / 2
-    rmax = np.exp(w) / alpha if kind == 'ggx' else np.minimum(np.exp(w) / alpha, 6.2)
+    dphi = (
+        top
+        * np.cos(x * math.pi / 2)
+        * np.cosh(w)
+        / np.sqrt(t * t - np.sinh(w) ** 2)
+        * wx
+        * math.pi
+        / 2
+    )
+    rmax = np.exp(w) / alpha if kind == "ggx" else np.minimum(np.exp(w) / alpha, 6.2)
     top = np.arcsinh(rmax)[:, None]
     v = top * (x + 1) / 2
     r = np.sinh(v)
-    p22 = 1 / (1 + r * r) ** 2 if kind == 'ggx' else np.exp(-r * r)
+    p22 = 1 / (1 + r * r) ** 2 if kind == "ggx" else np.exp(-r * r)
     vis = mu + s * alpha * r * (np.sinh(w) / t)[:, None]
     iz = np.clip(2 * vis / (1 + (alpha * r) ** 2) - mu, 1e-300, 1)
     g2 = 1 / (1 + smith(kind, np.array(mu), alpha) + smith(kind, iz, alpha))
-    return 1 - 2 * np.sum(p22 * r * np.cosh(v) / math.pi * top * wx / 2 * vis / mu * g2 * dphi[:, None])
+    return 1 - 2 * np.sum(
+        p22 * r * np.cosh(v) / math.pi * top * wx / 2 * vis / mu * g2 * dphi[:, None]
+    )
 
 
 def minimax(N, M, d, steps=400):
-    """d ~ N p / (1 + M q): Sanathanan-Koerner start, then Levenberg-Marquardt under Lawson weights."""
+    """Fit d by N p / (1 + M q): Sanathanan-Koerner, then Levenberg-Marquardt, Lawson weights."""
     n, m = N.shape[1], M.shape[1]
-    ev = lambda c: ((N @ c[:n]) / (1 + M @ c[n:]), 1 + M @ c[n:])
+
+    def ev(c):
+        return ((N @ c[:n]) / (1 + M @ c[n:]), 1 + M @ c[n:])
+
     den, starts = np.ones(len(d)), [np.zeros(n + m)]
     for _ in range(8):
         A = np.vstack([np.hstack([N, -M * d[:, None]]) / den[:, None], 1e-5 * np.eye(n + m)])
         starts.append(np.linalg.lstsq(A, np.r_[d / den, np.zeros(n + m)], rcond=None)[0])
-        den = np.clip(abs(1 + M @ starts[-1][n:]), .05, None)
-    c = min((c for c in starts if ev(c)[1].min() > .02), key=lambda c: abs(ev(c)[0] - d).max())
+        den = np.clip(abs(1 + M @ starts[-1][n:]), 0.05, None)
+    c = min((c for c in starts if ev(c)[1].min() > 0.02), key=lambda c: abs(ev(c)[0] - d).max())
     w, damp, best = np.ones(len(d)), 1e-3, (9, c)
     f, D = ev(c)
     for k in range(steps):
@@ -54,20 +71,20 @@ def minimax(N, M, d, steps=400):
         for _ in range(8):
             c2 = c - np.linalg.solve(H + np.diag(damp * (np.diag(H) + 1e-14)), J.T @ (w * (f - d)))
             f2, D2 = ev(c2)
-            if D2.min() > .02 and w @ (f2 - d) ** 2 < w @ (f - d) ** 2 * (1 + 1e-12):
-                c, f, D, damp = c2, f2, D2, max(damp * .2, 1e-9)
+            if D2.min() > 0.02 and w @ (f2 - d) ** 2 < w @ (f - d) ** 2 * (1 + 1e-12):
+                c, f, D, damp = c2, f2, D2, max(damp * 0.2, 1e-9)
                 break
             damp = min(damp * 4, 1e3)
         e = abs(f - d)
         if e.max() < best[0]:
             best = e.max(), c.copy()
         if k >= 40:
-            w = np.maximum(w * (e / e.max() + .02), 1e-7)
+            w = np.maximum(w * (e / e.max() + 0.02), 1e-7)
             w = np.maximum(w / w.max(), 1e-7)
     return best[1][:n], np.r_[1, best[1][n:]]
 
 
-PAIRS = [(i, j) for i in range(5) for j in range(5 - i)]      # z^i v^j, total degree 4
+PAIRS = [(i, j) for i in range(5) for j in range(5 - i)]  # z^i v^j, total degree 4
 
 
 def horner(c, x):
@@ -78,22 +95,26 @@ def horner(c, x):
 
 
 def quartic(c, z, v):
-    return horner([horner([k for k, ij in zip(c, PAIRS) if ij[0] == i], v) for i in range(5)], z)
+    return horner(
+        [horner([k for k, ij in zip(c, PAIRS, strict=False) if ij[0] == i], v) for i in range(5)], z
+    )
 
 
 def fitted(kind, c, mu, a, T=np.float64):
     mu, a, (p, q) = T(mu), T(a), [[T(k) for k in s] for s in c]
     y, z, one = mu / (mu + a), a / (mu + a), T(1)
-    if kind == 'ggx':
+    if kind == "ggx":
         y0 = np.maximum(y, T(1e-30))
-        return np.maximum(-a * mu * np.log(y0) + (one - a) * y * z * quartic(p, z, a) / quartic(q, z, a), T(0))
+        return np.maximum(
+            -a * mu * np.log(y0) + (one - a) * y * z * quartic(p, z, a) / quartic(q, z, a), T(0)
+        )
     return np.maximum(y * z * z * quartic(p, z, a * a) / quartic(q, z, a * a), T(0))
 
 
 def fitted_average(kind, c, a, T=np.float64):
     a, (p, q) = T(a), [[T(k) for k in s] for s in c]
-    t = np.sqrt(a) if kind == 'ggx' else a * a
-    return (a if kind == 'ggx' else a * a) * horner(p, t) / horner(q, t)
+    t = np.sqrt(a) if kind == "ggx" else a * a
+    return (a if kind == "ggx" else a * a) * horner(p, t) / horner(q, t)
 
 
 def average(f, alpha, n=96):
@@ -105,42 +126,66 @@ def average(f, alpha, n=96):
 
 
 def mus(a):
-    return np.unique(np.clip(np.r_[a * np.geomspace(1e-4, 1, 16), a * np.linspace(.05, 6, 40),
-                                   np.linspace(.02, 1, 24) ** 2, np.linspace(.05, 1, 20)], 0, 1))
+    return np.unique(
+        np.clip(
+            np.r_[
+                a * np.geomspace(1e-4, 1, 16),
+                a * np.linspace(0.05, 6, 40),
+                np.linspace(0.02, 1, 24) ** 2,
+                np.linspace(0.05, 1, 20),
+            ],
+            0,
+            1,
+        )
+    )
 
 
 def main(kind):
-    alphas = np.unique(np.r_[np.geomspace(1e-3, .1, 9), np.linspace(.05, 1, 30)])
+    alphas = np.unique(np.r_[np.geomspace(1e-3, 0.1, 9), np.linspace(0.05, 1, 30)])
     mu, a = np.array([(m, x) for x in alphas for m in mus(x)]).T
-    d = np.array([true_deficit(kind, *s) for s in zip(mu, a)])
+    d = np.array([true_deficit(kind, *s) for s in zip(mu, a, strict=False)])
     y, z = mu / (mu + a), a / (mu + a)
-    base, pre, v = (-a * mu * np.log(y), y * z * (1 - a), a) if kind == 'ggx' else (0, y * z * z, a * a)
-    B = np.array([z ** i * v ** j for i, j in PAIRS]).T
+    base, pre, v = (
+        (-a * mu * np.log(y), y * z * (1 - a), a) if kind == "ggx" else (0, y * z * z, a * a)
+    )
+    B = np.array([z**i * v**j for i, j in PAIRS]).T
     c = minimax(B * pre[:, None], B[:, 1:], d - base)
-    x = np.unique(np.r_[np.geomspace(1e-3, 1, 150), np.linspace(.01, 1, 100)])
-    avg = np.array([average(lambda m: fitted(kind, c, m, k, np.float64), k, 400) for k in x])
-    t = np.sqrt(x) if kind == 'ggx' else x * x
-    P = np.array([t ** i for i in range(7 if kind == 'ggx' else 9)]).T
-    g = minimax(P * ((x if kind == 'ggx' else x * x) / avg)[:, None], P[:, 1:5], np.ones(len(x)))
-    for name, k in zip(('deficit p', 'deficit q', 'average p', 'average q'), (*c, *g)):
-        print(kind, name, ', '.join('%.9g' % s for s in k))
-    worst, F = np.zeros(4), np.float32                        # verify on other points, in float32
+    x = np.unique(np.r_[np.geomspace(1e-3, 1, 150), np.linspace(0.01, 1, 100)])
+    avg = np.array([average(lambda m, k=k: fitted(kind, c, m, k, np.float64), k, 400) for k in x])
+    t = np.sqrt(x) if kind == "ggx" else x * x
+    P = np.array([t**i for i in range(7 if kind == "ggx" else 9)]).T
+    g = minimax(P * ((x if kind == "ggx" else x * x) / avg)[:, None], P[:, 1:5], np.ones(len(x)))
+    for name, k in zip(
+        ("deficit p", "deficit q", "average p", "average q"), (*c, *g), strict=False
+    ):
+        print(kind, name, ", ".join(f"{s:.9g}" for s in k))
+    worst, F = np.zeros(4), np.float32  # verify on other points, in float32
     where = None
-    for k in np.unique(np.r_[np.geomspace(1e-3, 1, 31), np.linspace(.0317, 1, 30)]):
-        m = np.r_[mus(k * .93), np.linspace(.01, 1, 34), 1e-6]
+    for k in np.unique(np.r_[np.geomspace(1e-3, 1, 31), np.linspace(0.0317, 1, 30)]):
+        m = np.r_[mus(k * 0.93), np.linspace(0.01, 1, 34), 1e-6]
         t = np.array([true_deficit(kind, s, k) for s in m])
         e = fitted(kind, c, m.astype(F), k, F)
-        ga, want = fitted_average(kind, g, k, F), average(lambda s: fitted(kind, c, s, k, np.float64), k, 400)
+        ga, want = (
+            fitted_average(kind, g, k, F),
+            average(lambda s, k=k: fitted(kind, c, s, k, np.float64), k, 400),
+        )
         W = abs(e * (want / ga) - t)
-        now = np.array([abs(e - t).max(), abs(ga / want - 1), W.max(), -min(e.min(), 1 - e.max(), ga)])
+        now = np.array(
+            [abs(e - t).max(), abs(ga / want - 1), W.max(), -min(e.min(), 1 - e.max(), ga)]
+        )
         if W.max() > worst[2]:
             where = m[W.argmax()], k
         worst = np.maximum(worst, now)
-    print(kind, 'float32: |deficit| %.2e, average rel %.2e, furnace %.2e' % tuple(worst[:3]), 'at mu, alpha', where,
-          'out of range' if worst[3] > 0 else 'in [0,1]')
+    print(
+        kind,
+        "float32: |deficit| {:.2e}, average rel {:.2e}, furnace {:.2e}".format(*tuple(worst[:3])),
+        "at mu, alpha",
+        where,
+        "out of range" if worst[3] > 0 else "in [0,1]",
+    )
     return c, g
 
 
-if __name__ == '__main__':
-    for kind in sys.argv[1:] or ('ggx', 'beckmann'):
+if __name__ == "__main__":
+    for kind in sys.argv[1:] or ("ggx", "beckmann"):
         main(kind)
