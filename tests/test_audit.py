@@ -100,11 +100,11 @@ def test_a_planted_fault_is_caught(name, instrument, tmp_path):
 
 def test_a_toggle_that_works_the_wrong_way_round_breaks_its_claim(instrument, tmp_path):
     """As in BRDF Explorer since 2012: what should take the shadowing away puts it in."""
-    text = catalog.read("model", "cook_torrance").text
-    (tmp_path / "cook_torrance.glsl").write_text(
-        text.replace("shadowing == SHADOWING_V_GROOVE", "shadowing != SHADOWING_V_GROOVE")
+    text = catalog.read("model", "plastic").text
+    (tmp_path / "plastic.glsl").write_text(
+        text.replace("shadowing == SHADOWING_SMITH", "shadowing != SHADOWING_SMITH")
     )
-    sheet = audit.audit(catalog.read("model", str(tmp_path / "cook_torrance.glsl")), instrument)
+    sheet = audit.audit(catalog.read("model", str(tmp_path / "plastic.glsl")), instrument)
     assert any("off the float64 reference" in line for line in sheet["broken"])
 
 
@@ -213,7 +213,10 @@ def test_slider_ends_are_all_tried_or_drawn():
     settings = hostile.corners(model, names)
     assert len(settings) == 16
     assert {s["alpha_x"] for s in settings} == {0.001, 1.0}
-    assert len(hostile.choices(catalog.read("model", "cook_torrance"))) == 2 * 5 * 4 * 2 * 2 * 2
+    rows = hostile.choices(catalog.read("model", "cook_torrance"))
+    pairs = {(one["shadowing"], one["fresnel"]) for one in rows}
+    assert len(rows) == hostile.MOST_CHOICES and len(pairs) == 5 * 4
+    assert len(hostile.choices(catalog.read("model", "rough_conductor"))) == 3 * 2 * 2 * 2 * 2
 
 
 def test_the_hard_directions_hold_what_breaks_formulas():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from lumiar import catalog, compose, settings
+from lumiar import catalog, compose, contract, glsltext, settings
 from lumiar.errors import Mistake
 from lumiar.picture import radiance
 from lumiar.scene import Scene
@@ -250,3 +250,13 @@ def test_the_places_of_the_rigs_are_not_for_models(place):
     shader = catalog.parse("model", "m.glsl", "m.glsl", f'\n#include "{place}"\n{SCATTER}')
     with pytest.raises(Mistake, match=r"^m\.glsl:2: a file of models/ may not include"):
         compose.surface(shader, [], "phong", {})
+
+
+@pytest.mark.parametrize("kind", ["model", "light"])
+def test_what_comes_with_lumiar_keeps_the_contract(kind):
+    """`catalog` does not check these again at every start."""
+    for name in catalog.names(kind):
+        shader = catalog.read(kind, name)
+        contract.check_comments(shader.text, shader.path)
+        code = glsltext.without_comments(shader.text)
+        assert contract.check(code, shader.path, catalog.DEFINES[kind]) == shader.defines

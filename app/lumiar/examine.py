@@ -10,8 +10,8 @@ from . import hostile, measure, reference
 TOLERANCE = {"reciprocal": 1e-3, "conserving": 1e-3}  # relative; of an albedo
 ANGLES = (0.0, 30.0, 60.0, 75.0, 85.0, 89.0)  # degrees of incidence at which energy is summed
 RESOLVED = 1e-2  # error of an albedo beyond which it proves nothing
-MOST = 600  # settings at slider ends; beyond, each choice gets its share of the corners
-COMPARED = 160  # settings compared with the reference
+MOST = 300  # settings at slider ends; beyond, each choice gets its share of the corners
+COMPARED = 100  # settings compared with the reference
 SEARCHES = 48  # settings by chance in which a property that is not claimed is looked for
 MOVES = 3  # ways in which directions are moved by their rounding
 WRONG = 1e-2  # relative error at default sliders that no rounding explains

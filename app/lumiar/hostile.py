@@ -12,7 +12,7 @@ ANGLES = (0.0, 1e-4, 0.06, 1.0, 5.0, 20.0, 41.8, 60.0, 80.0, 85.0, 89.9, 89.999,
 TURNS = (0.0, 37.0, 90.0, 180.0, 217.0)  # degrees around the normal; each has its opposite or not
 NOISE = 2.0**-24  # half a step of a float32, of its value
 BELOW = -1e-7  # cosine just below the horizon
-MOST_CHOICES = 512  # combinations of choices and toggles that are all tried
+MOST_CHOICES = 96  # combinations of choices and toggles that are tried
 MOST_SLIDERS = 5  # of which every corner is tried; with more of them, some by chance
 
 
@@ -40,17 +40,16 @@ def directions(model_values):
 def choices(model, seed=0):
     """Return the combinations {name: value} of a model's choices and toggles, the default first.
 
-    All of them, or MOST_CHOICES drawn by `seed` where there are more.
+    All of them; where there are more than MOST_CHOICES, those that differ from the default in one
+    place, and others drawn by `seed`.
     """
     fixed = [p for p in model.parameters if p.constant]
     ranges = [p.choices if p.widget == "choice" else (False, True) for p in fixed]
-    count = math.prod(map(len, ranges))
-    if count <= MOST_CHOICES:
-        rows = list(itertools.product(*ranges))
-    else:
-        drawn = random.Random(seed)
-        rows = [tuple(drawn.choice(r) for r in ranges) for _ in range(MOST_CHOICES)]
-    rows.sort(key=lambda row: [v != p.default for p, v in zip(fixed, row, strict=True)])
+    rows = list(itertools.islice(itertools.product(*ranges), 1 << 16))
+    random.Random(seed).shuffle(rows)
+    rows.sort(key=lambda row: sum(v != p.default for p, v in zip(fixed, row, strict=True)) > 1)
+    rows.sort(key=lambda row: any(v != p.default for p, v in zip(fixed, row, strict=True)))
+    rows = rows[:MOST_CHOICES]
     return [dict(zip((p.name for p in fixed), row, strict=True)) for row in rows]
 
 

@@ -136,13 +136,16 @@ def is_closed(triangles):
 def _volumes(p, at, face):
     """Return six times the volume of each connected part of a closed mesh, (parts,)."""
     label = np.arange(int(at.max()) + 1)
-    while True:  # every place takes the lowest label around it, and that one's own
-        lower = label.copy()
-        np.minimum.at(lower, at.ravel(), np.repeat(label[at].min(axis=1), 3))
-        lower = lower[lower]
-        if (lower == label).all():
+    one, other = at[:, [0, 1]].T.ravel(), at[:, [1, 2]].T.ravel()
+    while True:  # hook the higher of two labels that share an edge to the lower, then shorten
+        a, b = label[one], label[other]
+        apart = a != b
+        if not apart.any():
             break
-        label = lower
+        one, other, a, b = one[apart], other[apart], a[apart], b[apart]
+        np.minimum.at(label, np.maximum(a, b), np.minimum(a, b))
+        while (label[label] != label).any():
+            label = label[label]
     parts = np.unique(label[at[:, 0]], return_inverse=True)[1].reshape(-1)
     return np.bincount(parts, _dot(p[:, 0] - p.reshape(-1, 3).mean(0), face))
 
