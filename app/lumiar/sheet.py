@@ -42,7 +42,7 @@ def lay_out(title, cells, columns=0):
     for row, lines, row_height in zip(rows, captions, heights, strict=True):
         x = gap
         for (_, size, pixels), line, width in zip(row, lines, widths, strict=False):
-            page.paste(Image.frombytes("RGB", size, pixels), (x, y))
+            page.paste(Image.frombytes("RGB", size, pixels), (x + (width - size[0]) // 2, y))
             line.draw(pen, x, y + size[1], width)
             x += width + gap
         y += row_height + gap
