@@ -1,6 +1,6 @@
 # make demo, make test, make lint: each sets up all that it needs, on a machine with make and
-# Python 3.11 or later. make bench measures the speed; make lock renews the locked dependencies;
-# make clean forgets what was made.
+# Python 3.11 or later. make bench measures the speed, make peers compares with other programs;
+# make lock renews the locked dependencies; make clean forgets what was made.
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -9,7 +9,9 @@ PYTHON := $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; 
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 DRAW := $(BIN)/python -c 'from lumiar.renderer import open_context; open_context()'
 
-.PHONY: demo test lint bench style driver glslang apt lock clean
+
+.NOTPARALLEL:
+.PHONY: demo test lint bench peers style driver glslang apt lock clean
 
 demo: $(VENV)/run driver
 	@mkdir -p demo
@@ -24,6 +26,11 @@ lint: $(VENV)/dev driver glslang style
 
 bench: $(VENV)/dev driver
 	$(BIN)/python tests/benchmarks/bench.py
+
+# Mitsuba and tmm, hundreds of megabytes: only these tests need them.
+peers: $(VENV)/dev
+	@$(PIP) install uv && $(BIN)/uv pip install --quiet --python $(BIN)/python --group peers
+	$(BIN)/python -m pytest tests/test_reference.py
 
 style: $(VENV)/dev
 	$(BIN)/ruff check

@@ -27,6 +27,7 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "examine",
     "audit",
     "verbs",
+    "lab",
     "cli",
 ]
 FLOOR = {name: i for i, names in enumerate(FLOORS) for name in names.split()}

@@ -97,3 +97,10 @@ def test_the_metals_are_made_from_the_committed_spectra():
     for path in ASSETS.glob("*.toml"):
         data = tomllib.loads(path.read_text())
         assert catalog.read("model", data["model"]).defaults().keys() & data["values"].keys()
+
+
+def test_a_material_is_measured_with_the_values_it_has(lumiar):
+    table = lumiar("measure", "rough_conductor", "--material", "silver", "--light", "45").stdout
+    assert "# parameter 1.eta: 0.05, 0.056, 0.04 (unitless)" in table
+    told = lumiar("measure", "lambert", "--material", "silver", code=2).stderr
+    assert "lambert takes none of the values of 'silver'" in told

@@ -75,8 +75,12 @@ def _dispatch(argv):
         return 0
     if argv[0] not in VERBS:
         raise Mistake(f"no verb '{argv[0]}'; {nearest(argv[0], VERBS)}")
-    from . import options, verbs
+    from . import options
 
+    if argv[0] in ("measure", "audit"):
+        from . import lab as verbs
+    else:
+        from . import verbs
     return getattr(verbs, argv[0])(options.parse(argv[0], argv[1:]))
 
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import __version__, catalog, gonio, measure, panels, settings, tables
+from . import __version__, catalog, gonio, materials, measure, panels, settings, tables
 from .captions import TEXT
 from .errors import Mistake, nearest
 from .parts import Object
@@ -54,16 +54,20 @@ class Setup(NamedTuple):
     seed: int = 0
 
 
-def chosen(specs, pairs, folder=""):
+def chosen(specs, pairs, folder="", material=None):
     """Return the Chosen models of texts such as `ward:alpha_x=0.3`.
 
-    pairs are (key, value) set in all of them that have such a value. Raises Mistake.
+    material names one whose values they take; pairs are (key, value) set in all of them that have
+    such a value. Raises Mistake.
     """
     models, used = [], set()
     for spec in specs:
         name, *own = settings.light_parts(spec)
         shader = catalog.read("model", name, "", folder)
         values = shader.defaults()
+        if material:
+            one = Object(shader, values)
+            values = materials.applied(one, material, True, "--material: ").values
         for key, value in pairs:
             if key in values:
                 used.add(key)

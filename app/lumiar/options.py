@@ -219,6 +219,8 @@ def _measure(parser):
     parser.add_argument(
         "--set", action="append", default=[], metavar="KEY=VALUE", help="in all models that have it"
     )
+    text = "its values in all models: gold, glass …"
+    parser.add_argument("--material", metavar="NAME", help=text)
     text = "of the light from the normal (default: 0,30,60,80)"
     parser.add_argument("--light", type=_angles, metavar="DEG[,DEG…]", help=text)
     text = "of the light about the normal, from the tangent"
