@@ -35,10 +35,10 @@ def test_a_shipped_model_is_as_it_claims_and_as_exact(name, instrument):
     }
     assert sheet["error"]["default"]["beyond"] <= 1e-5
     corners = sheet["error"].get("corners", {"beyond": 0.0, "where": ""})
-    # PHYSICS B.8: Ward at alpha 1e-3 across 1 keeps 3.4e-3; and f82 = 0 makes the reflectance
+    # PHYSICS B.8: lobes of alpha 1e-3 across 1 keep 3.4e-3; and f82 = 0 makes the reflectance
     # touch 0 at 82 degrees, where any error is large beside it
-    limit = 3.4e-3 if name == "ward" else 1e-3
-    assert corners["beyond"] <= limit or "f82 = 0" in corners["where"]
+    thin = name == "ward" or "anisotropic = True" in corners["where"]
+    assert corners["beyond"] <= (3.4e-3 if thin else 1e-3) or "f82 = 0" in corners["where"]
     assert sheet["cost"]["lambert_ns"] > 0.0
     assert sheet["title"] in audit.text(sheet) and "verdict     as claimed" in audit.text(sheet)
 
