@@ -89,6 +89,21 @@ def test_the_reference_compiler_takes_every_variant(model, tmp_path):
     glslang(sources, tmp_path)
 
 
+@pytest.mark.parametrize("model", MODELS)
+def test_the_reference_compiler_takes_what_is_measured(model, tmp_path):
+    shader = catalog.read("model", model)
+    needed = {"surround": "surround", "density": "scatter_pdf", "sampled": "sample_scatter"}
+    kinds = ["scatter", "timed", *(k for k, name in needed.items() if name in shader.defines)]
+    kinds += ["weighed"] * ("sampled" in kinds)
+    constants = {p.name: p.default for p in shader.parameters if p.constant}
+    sources = [
+        compose.measured(shader, constants, kind, strict)
+        for kind in kinds
+        for strict in (False, True)
+    ]
+    glslang(sources, tmp_path)
+
+
 def test_the_reference_compiler_takes_the_screen(tmp_path):
     tones, targets = ("none", "reinhard", "aces"), ("display", "linear")
     constants = [{"side": 2, "tone": tone, "target": t} for tone in tones for t in targets]

@@ -15,7 +15,12 @@ CLAIMS = ("positive", "reciprocal", "conserving")
 NEEDS = ("tangent",)  # what a file may ask of the rig beyond the normal
 FOLDERS = {"model": "models", "light": "lights"}
 DEFINES = {
-    "model": {"scatter": "vec3 scatter(vec3 L, vec3 V)", "surround": "vec3 surround(vec3 V)"},
+    "model": {
+        "scatter": "vec3 scatter(vec3 L, vec3 V)",
+        "surround": "vec3 surround(vec3 V)",
+        "sample_scatter": "vec3 sample_scatter(vec3 V, vec2 u, out vec3 L)",
+        "scatter_pdf": "float scatter_pdf(vec3 L, vec3 V)",
+    },
     "light": {
         "light": "Incident light(vec3 position, vec2 u)",
         "environment": "vec3 environment(vec3 direction)",

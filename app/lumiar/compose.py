@@ -76,12 +76,14 @@ def surface(model, lights, rate, constants, two_sided=True, transformed=True):
 def measured(model, constants, what, strict=False):
     """Return the sources {stage: Source} that evaluate a model, a pair of directions per pixel.
 
-    what is "scatter", "surround" (in a white furnace), or "timed": scatter again and again. strict
-    lets no NaN get lost in max, min or clamp.
+    what is "scatter", "surround" (in a white furnace), "timed" (scatter again and again), "density"
+    (scatter_pdf), "sampled" or "weighed" (the direction or the weight that sample_scatter makes of
+    V and of u, in place of L). strict lets no NaN get lost in max, min or clamp.
     """
     places = {"MODEL": [(model.path, "models", _fixed(model, constants))]}
-    facts = {word: word == what for word in ("scatter", "surround", "timed")}
-    facts["strict"] = strict
+    words = ("scatter", "surround", "timed", "density", "weighed")
+    facts = {word: word == what for word in words}
+    facts |= {"strict": strict, "sampled": what in ("sampled", "weighed")}
     return {
         "vertex": _finish(_flatten("rigs/screen.vert", {}, {}, {})),
         "fragment": _watched("rigs/measure.frag", places, {}, facts),

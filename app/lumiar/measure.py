@@ -86,6 +86,23 @@ class Instrument:
         with self.context:
             return self._measured(model, values, pairs, "surround", strict)
 
+    def sampled(self, model, values, V, u):
+        """Return L (n, 3), weight (n, 3) and pdf (n,) of sample_scatter for V (n, 3), u (n, 2)."""
+        pairs = self.pairs(np.pad(np.asarray(u), ((0, 0), (0, 1))), V)
+        with self.context:
+            L = self._measured(model, values, pairs, "sampled", False).copy()
+            weight = self._measured(model, values, pairs, "weighed", False).copy()
+        self.forget(pairs)
+        return L, weight, self.density(model, values, L, V)
+
+    def density(self, model, values, L, V):
+        """Return scatter_pdf(L, V) of a model for (n, 3) directions each, (n,) float32 [1/sr]."""
+        pairs = self.pairs(L, V)
+        with self.context:
+            found = self._measured(model, values, pairs, "density", False)[:, 0].copy()
+        self.forget(pairs)
+        return found
+
     def cost(self, model, values):
         """Return (ns of an evaluation, its interquartile range), those of an empty model taken off.
 

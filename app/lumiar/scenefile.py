@@ -203,8 +203,16 @@ def _object(file, index, data):
         if key in OBJECT:
             own[key] = settings.object_value(key, value, where(key))
         elif key not in names:
-            values[key] = model.parameter(key).check(value, where(key))
+            values[key] = _given(model, key, value, where(key))
     return one._replace(values=values, **own)
+
+
+def _given(shader, key, value, where):
+    """Return the checked value of a parameter; one that follows the time is not to be set."""
+    parameter = shader.parameter(key)
+    if parameter.widget == "time" and value != parameter.default:
+        raise Mistake(f"{where}{key} follows the time of the scene; set time instead")
+    return parameter.check(value, where)
 
 
 def _light(file, index, data):
@@ -213,7 +221,7 @@ def _light(file, index, data):
     _confine(file, names["kind"], "light", where("kind"))
     kind = catalog.read("light", names["kind"], where("kind"), file.folder)
     _check_keys(data, [*catalog.OWN_KEYS["light"], *kind.defaults()], where)
-    given = {k: kind.parameter(k).check(v, where(k)) for k, v in data.items() if k not in names}
+    given = {k: _given(kind, k, v, where(k)) for k, v in data.items() if k not in names}
     return Light(kind, {**kind.defaults(), **given}, names["name"])
 
 

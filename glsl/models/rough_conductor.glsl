@@ -1,12 +1,12 @@
 // model   Rough conductor
-// paper   B. Walter et al., "Microfacet models for refraction through rough surfaces", EGSR 2007;
-//         f82: N. Hoffman, 2019; compensated: C. Kulla and A. Conty, SIGGRAPH 2017
+// paper   B. Walter et al., EGSR 2007; f82: N. Hoffman, 2019; compensated: C. Kulla and A. Conty, 2017
 // claims  positive, reciprocal, conserving
 // needs   tangent
 // note    a metal of complex index eta + i k at three wavelengths; assets/materials has measured ones
 #include "lib/energy.glsl"
 #include "lib/fresnel.glsl"
 #include "lib/microfacet.glsl"
+#include "lib/sampling.glsl"
 
 uniform vec3 eta = vec3(0.14, 0.503, 1.428);   // [0.01, 10]: index of refraction, here gold's (unitless)
 uniform vec3 k = vec3(3.702, 2.312, 1.937);    // [0, 12]: extinction coefficient (unitless)
@@ -22,27 +22,39 @@ uniform bool compensated = false;              // toggle: what one bounce loses 
 
 vec3 scatter(vec3 L, vec3 V) {
     vec3 H = L + V;
-    float square = dot(H, H);
-    if (L.z <= 0.0 || V.z <= 0.0 || square < 1e-12) return vec3(0.0);  // 1e-12: L = -V, no half vector
+    if (L.z <= 0.0 || V.z <= 0.0 || dot(H, H) < 1e-12) return vec3(0.0);  // 1e-12: L = -V, no half vector
     vec2 a = vec2(alpha, anisotropic ? alpha_y : alpha);
     bool ggx = distribution == DISTRIBUTION_GGX;
     float D = ggx ? D_ggx(H, a) : D_beckmann(H, a);
     float M_L = ggx ? M_ggx(L, a) : M_beckmann(L, a), M_V = ggx ? M_ggx(V, a) : M_beckmann(V, a);
     float G = shadowing == SHADOWING_SMITH ? G_correlated(L.z, V.z, M_L, M_V) : G_separable(L.z, V.z, M_L, M_V);
-    float c = min(0.5 * sqrt(square), 1.0);  // L.H of unit directions
+    float c = min(0.5 * length(H), 1.0);  // L.H of unit directions
     vec3 dip = form == FORM_F82 ? F82_dip(f0, f82) : vec3(0.0);
     vec3 F = form == FORM_EXACT ? 1.0 - A_conductor(c, eta, k) : F_f82(f0, dip, c);
     vec3 value = F * (D * G);
     if (compensated && !anisotropic) {  // its loss has no known fit there
-        vec3 front = f0;
-        if (form == FORM_EXACT) {
-            front = 1.0 - A_conductor(1.0, eta, k);
-            dip = F82_dip(front, 1.0 - A_conductor(1.0 / 7.0, eta, k));
-        }
+        vec3 front = form == FORM_EXACT ? 1.0 - A_conductor(1.0, eta, k) : f0;
+        if (form == FORM_EXACT) dip = F82_dip(front, 1.0 - A_conductor(1.0 / 7.0, eta, k));
         vec3 mean = clamp(F_average(front, dip), 0.0, 1.0);
         value += ggx
             ? bounced(L.z, deficit_ggx(L.z, alpha), deficit_ggx(V.z, alpha), deficit_average_ggx(alpha), mean)
             : bounced(L.z, deficit_beckmann(L.z, alpha), deficit_beckmann(V.z, alpha), deficit_average_beckmann(alpha), mean);
     }
     return value;
+}
+
+float scatter_pdf(vec3 L, vec3 V) {
+    vec3 H = L + V;
+    if (L.z <= 0.0 || V.z <= 0.0 || dot(H, H) < 1e-12) return 0.0;
+    vec2 a = vec2(alpha, anisotropic ? alpha_y : alpha);
+    if (distribution == DISTRIBUTION_GGX) return D_ggx(H, a) / (4.0 * (V.z + M_ggx(V, a)));
+    return D_beckmann(H, a) * H.z / (2.0 * dot(H, H));
+}
+
+vec3 sample_scatter(vec3 V, vec2 u, out vec3 L) {
+    vec2 a = vec2(alpha, anisotropic ? alpha_y : alpha);
+    vec3 H = distribution == DISTRIBUTION_GGX ? visible_ggx(V, a, u) : facet_beckmann(a, u);
+    L = 2.0 * dot(V, H) * H - V;
+    float density = scatter_pdf(L, V);
+    return density > 0.0 ? scatter(L, V) / density : vec3(0.0);
 }

@@ -22,5 +22,9 @@ void main() {
     rig_out = vec4(sum, 1.0);  // where timed
     rig_out = vec4(scatter(L, V), 1.0);  // where scatter
     rig_out = vec4(surround(V), 1.0);  // where surround
+    rig_out = vec4(vec3(scatter_pdf(L, V)), 1.0);  // where density
+    vec3 way, weight = sample_scatter(V, L.xy, way);  // where sampled
+    rig_out = vec4(way, 1.0);  // where sampled and not weighed
+    rig_out = vec4(weight, 1.0);  // where weighed
     if (rig_cut_short(V.x)) rig_out = vec4(uintBitsToFloat(0x7fc00000u));  // where looping
 }

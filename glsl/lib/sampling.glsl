@@ -1,0 +1,26 @@
+#include "lib/constants.glsl"
+
+// Directions by chance, from u spread evenly over [0, 1)^2, and their densities over solid angle [1/sr].
+
+// Density cos(theta) / pi. Concentric rings would waste fewer samples; one ring is simpler.
+vec3 cosine_direction(vec2 u) {
+    float r = sqrt(u.x), phi = 2.0 * PI * u.y;
+    return vec3(r * cos(phi), r * sin(phi), sqrt(1.0 - u.x));
+}
+
+// A facet of GGX as seen from V: the spherical cap that V reflects from, in stretched space, where
+// the facets are a sphere. J. Dupuy and A. Benyoub, "Sampling visible GGX normals with spherical caps",
+// HPG 2023. V: V.z > 0; alpha: along T and B
+vec3 visible_ggx(vec3 V, vec2 alpha, vec2 u) {
+    vec3 w = normalize(vec3(alpha * V.xy, V.z));
+    float phi = 2.0 * PI * u.x, z = 1.0 - u.y * (1.0 + w.z);  // from 1 down to -w.z
+    float s = sqrt(max((1.0 - z) * (1.0 + z), 0.0));          // 0: rounding at the pole
+    vec3 H = vec3(s * cos(phi), s * sin(phi), z) + w;
+    return normalize(vec3(alpha * H.xy, max(H.z, 1e-9)));     // 1e-9: a facet on edge
+}
+
+// A facet of Beckmann's, whether seen or not, density D cos: its slopes are Gaussian.
+vec3 facet_beckmann(vec2 alpha, vec2 u) {
+    float r = sqrt(-log(1.0 - u.x)), phi = 2.0 * PI * u.y;
+    return normalize(vec3(-alpha * r * vec2(cos(phi), sin(phi)), 1.0));
+}
