@@ -47,6 +47,7 @@ def radiance(scene, one, points, normals, eye):
     """Return (n, 3) radiance toward the eye at points of an object with these unit normals."""
     values = dict(one.values)
     view = local(unit(eye - points), normals)
+    view[:, 2] = np.maximum(view[:, 2], 1e-3)  # as opaque surfaces are seen where normals lean away
     total = np.zeros_like(points)
     model = getattr(reference, one.model.name)
     for light in scene.lights:

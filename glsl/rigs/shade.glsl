@@ -13,9 +13,12 @@ vec3 rig_reflected(Incident incident, Frame frame, vec3 V) {
     return incident.irradiance * scatter(to_local(incident.direction, frame), V);
 }
 
+// An interpolated normal may lean away from the eye where a coarse mesh turns away: an opaque surface
+// is then seen at the horizon, not from behind, where models are black.
 vec3 rig_radiance(vec3 position, Frame frame) {
     rig_here = frame;  // where surround
     vec3 V = to_local(normalize(rig_eye - position), frame);
+    V.z = max(V.z, 1e-3);  // where opaque
     vec3 radiance = vec3(0.0);
     radiance += rig_reflected(light(position, vec2(0.5)), frame, V);  // each light
     radiance += surround(V);  // where surround
