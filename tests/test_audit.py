@@ -101,10 +101,10 @@ def test_a_planted_fault_is_caught(name, instrument, tmp_path):
 def test_a_toggle_that_works_the_wrong_way_round_breaks_its_claim(instrument, tmp_path):
     """As in BRDF Explorer since 2012: what should take the shadowing away puts it in."""
     text = catalog.read("model", "plastic").text
-    (tmp_path / "plastic.glsl").write_text(
+    (tmp_path / "mine.glsl").write_text(  # a copy, known by its title
         text.replace("shadowing == SHADOWING_SMITH", "shadowing != SHADOWING_SMITH")
     )
-    sheet = audit.audit(catalog.read("model", str(tmp_path / "plastic.glsl")), instrument)
+    sheet = audit.audit(catalog.read("model", str(tmp_path / "mine.glsl")), instrument)
     assert any("off the float64 reference" in line for line in sheet["broken"])
 
 

@@ -18,7 +18,7 @@ def audit(model, instrument, seed=0):
     hostile   evaluations and how many were NaN, infinite or negative, with the first place of each
     error     relative error against `reference` at default sliders and at all corners, or None
     albedo    {degrees, rgb, error} at default values; cost in ns, also of Lambert's model
-    compiled  lines of GLSL, settings tried
+    compiled  lines of GLSL and the choices they are for; settings tried
     broken    one line for each claim that does not hold, empty if all is well
     """
     run = Examination(model, instrument, seed)
@@ -33,7 +33,11 @@ def audit(model, instrument, seed=0):
         "error": run.errors(),
         "albedo": _curve(model, instrument),
         "cost": _cost(model, instrument),
-        "compiled": {"lines": _lines(model), "settings": tried},
+        "compiled": {
+            "lines": _lines(model),
+            "choices": {p.name: p.default for p in model.parameters if p.constant},
+            "settings": tried,
+        },
         "broken": run.broken(),
     }
 
@@ -70,7 +74,9 @@ def text(sheet):
     spread = cost["spread"] / 2.0
     out.append(f"  cost        {cost['ns']:.2f} ± {spread:.2f} ns, {ratio:.1f} times Lambert's")
     made = sheet["compiled"]
-    out.append(f"  compiled    {made['lines']} lines of GLSL; {made['settings']} settings tried")
+    chosen = ", ".join(f"{name} = {value}" for name, value in made["choices"].items())
+    out.append(f"  compiled    {made['lines']} lines of GLSL{' with ' * bool(chosen)}{chosen}")
+    out.append(f"  tried       {made['settings']} settings of choices and sliders")
     out += [f"  BROKEN      {line}" for line in sheet["broken"]] or ["  verdict     as claimed"]
     return "\n".join(out)
 

@@ -5,7 +5,7 @@ import os
 
 import numpy as np
 
-from . import hostile, measure, reference
+from . import catalog, hostile, measure, reference
 
 TOLERANCE = {"reciprocal": 1e-3, "conserving": 1e-3}  # relative; of an albedo
 ANGLES = (0.0, 30.0, 60.0, 75.0, 85.0, 89.0)  # degrees of incidence at which energy is summed
@@ -268,8 +268,17 @@ class Examination:
 
 
 def _references(model):
-    """Return {"scatter": function, "surround": function} of `reference` for a file of that name."""
+    """Return {"scatter": function, "surround": function} of `reference` for what a file says it is.
+
+    That is a model of ours with its file name or its title: a copy is held against the original.
+    """
     name = os.path.splitext(os.path.basename(model.path))[0]
+    if name not in catalog.names("model"):
+        title = model.header.get("model")
+        ours = (catalog.read("model", one) for one in catalog.names("model"))
+        name = next((one.name for one in ours if one.header["model"] == title), name)
+        if name not in catalog.names("model"):
+            return {}
     found = {"scatter": name, "surround": f"{name}_surround"}
     found = {what: getattr(reference, key, None) for what, key in found.items()}
     return {what: f for what, f in found.items() if f and what in model.defines}
