@@ -23,8 +23,8 @@ vec3 scatter(vec3 L, vec3 V) {
     if (diffuse) value += kd * L.z;
     if (specular) {
         vec3 H = L + V;  // vanishes for L = -V, with the eye below the surface
-        vec3 d = vec3(0.0, 0.0, 1.0) - H * inversesqrt(max(dot(H, H), 1e-12));
-        float lobe = cos_power(0.5 * dot(d, d), shininess);  // 1 - cos(phi) = d.d / 2
+        float adjacent = H.z + length(H);  // tan(phi / 2) = sin(phi) / (1 + cos(phi))
+        float lobe = H.z > 0.0 ? cos_power(dot(H.xy, H.xy) / (adjacent * adjacent), shininess) : 0.0;
         float scale = (shininess + 2.0) * (shininess + 4.0) / (8.0 * (exp2(-0.5 * shininess) + shininess));
         value += form == FORM_SLIDE ? ks * lobe : ks * (scale * lobe * L.z);
     }

@@ -21,8 +21,9 @@ vec3 scatter(vec3 L, vec3 V) {
     vec3 value = vec3(0.0);
     if (diffuse) value += kd * L.z;
     if (specular) {
-        vec3 d = vec3(-L.xy, L.z) - V;  // R - V, so that 1 - cos(beta) = d.d / 2 for unit vectors
-        float lobe = cos_power(0.5 * dot(d, d), shininess);
+        vec3 d = vec3(-L.xy, L.z) - V;  // R - V, so that tan^2(beta / 2) = d.d / (4 - d.d)
+        float square = dot(d, d);
+        float lobe = cos_power(square / max(4.0 - square, 1e-6), shininess);  // 1e-6: V = -R
         value += form == FORM_SLIDE ? ks * lobe : ks * (0.5 * (shininess + 2.0) * lobe * L.z);
     }
     return value * INV_PI;

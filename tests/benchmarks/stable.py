@@ -38,16 +38,16 @@ def dielectric(n):
 
 
 HALF = "vec3 H = normalize(L + V); "
-VERSINE = "vec3 H = normalize(L + V), d = H - vec3(0.0, 0.0, 1.0); "
+TANGENT = "vec3 H = L + V; float t = H.z + length(H); "
 FORMS = {  # name: (naive, stable, float64)
     "Blinn, m = 40": (
         HALF + "return vec3(pow(H.z, 40.0));",
-        VERSINE + "return vec3(cos_power(0.5 * dot(d, d), 40.0));",
+        TANGENT + "return vec3(cos_power(dot(H.xy, H.xy) / (t * t), 40.0));",
         lobe(40.0),
     ),
     "Blinn, m = 10000": (
         HALF + "return vec3(pow(H.z, 1e4));",
-        VERSINE + "return vec3(cos_power(0.5 * dot(d, d), 1e4));",
+        TANGENT + "return vec3(cos_power(dot(H.xy, H.xy) / (t * t), 1e4));",
         lobe(1e4),
     ),
     "Beckmann, 0.1": (
