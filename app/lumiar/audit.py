@@ -94,7 +94,7 @@ def page(sheet, model, instrument, renderer, lang):
         panels.Curve(chosen.label, light, *gonio.lobe(evaluate, light, *how))
         for light in measuring.LIGHTS
     ]
-    scene = Scene.default().set(model=model.path, size=(480, 480), samples=16)
+    scene = Scene.default().set(model=model.path, size=(480, 480), samples=16, exposure=-1.0)
     scene = scene.changed("light", "directional:direction=0.5,0.7,0.9")
     more = settings.light("studio:radiance=0.5")
     shot = picture.capture(scene._replace(lights=(*scene.lights, more)), renderer=renderer)
@@ -102,7 +102,7 @@ def page(sheet, model, instrument, renderer, lang):
     claims = tuple(
         (
             words[name],
-            words["no"] if said["claimed"] == "no" else words["yes"],
+            words.get(said["claimed"], words["partly"]),
             words[said["verdict"]],
             said["verdict"] in ("holds", "does not hold"),
         )
