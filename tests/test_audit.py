@@ -118,6 +118,24 @@ def test_a_gain_that_hides_between_the_corners_is_found(instrument, tmp_path):
     assert any("conserving" in line for line in audit.audit(model, instrument)["broken"])
 
 
+def test_another_model_under_a_title_of_ours_is_held_against_nothing(instrument, tmp_path):
+    path = tmp_path / "other.glsl"
+    path.write_text(
+        "// model   Phong\n// claims  positive, reciprocal, conserving\n"
+        "vec3 scatter(vec3 L, vec3 V) { return vec3(0.3 * max(L.z, 0.0)); }\n"
+    )
+    sheet = audit.audit(catalog.read("model", str(path)), instrument)
+    assert sheet["error"] is None and sheet["broken"] == []
+
+
+def test_an_audit_leaves_nothing_on_the_card(instrument):
+    before = len(instrument._pairs)
+    audit.audit(catalog.read("model", "lambert"), instrument)
+    first = len(instrument._pairs)
+    audit.audit(catalog.read("model", "lambert"), instrument)
+    assert len(instrument._pairs) == first <= before + 1  # the one for timing
+
+
 def test_a_users_own_model_has_no_reference_and_says_so(instrument, tmp_path):
     body = "vec3 scatter(vec3 L, vec3 V) { return vec3(0.3 * max(L.z, 0.0)); }"
     claims = "// claims  positive, reciprocal, conserving"

@@ -257,6 +257,6 @@ def test_what_comes_with_lumiar_keeps_the_contract(kind):
     """`catalog` does not check these again at every start."""
     for name in catalog.names(kind):
         shader = catalog.read(kind, name)
-        contract.check_comments(shader.text, shader.path)
+        glsltext.check_comments(shader.text, shader.path)
         code = glsltext.without_comments(shader.text)
         assert contract.check(code, shader.path, catalog.DEFINES[kind]) == shader.defines

@@ -23,6 +23,7 @@ def audit(model, instrument, seed=0):
     """
     run = Examination(model, instrument, seed)
     tried = run.everything()
+    run.forget()
     return {
         "model": model.name,
         "title": model.header.get("model", model.name),
@@ -35,7 +36,7 @@ def audit(model, instrument, seed=0):
         "cost": _cost(model, instrument),
         "compiled": {
             "lines": _lines(model),
-            "choices": {p.name: p.default for p in model.parameters if p.constant},
+            "choices": model.constants(model.defaults()),
             "settings": tried,
         },
         "broken": run.broken(),
@@ -137,9 +138,8 @@ def _facts(sheet, words):
 
 def _curve(model, instrument):
     """Return the albedo against the angle of incidence at default values."""
-    transmits = model.header.get("sides") == "both"
     rgb, error = measure.albedo(
-        instrument, model, model.defaults(), np.radians(CURVE), nodes=6, transmits=transmits
+        instrument, model, model.defaults(), np.radians(CURVE), transmits=model.transmits
     )
     return {"degrees": list(CURVE), "rgb": rgb.tolist(), "error": error.tolist()}
 
@@ -152,7 +152,7 @@ def _cost(model, instrument):
 
 def _lines(model):
     """Return the number of lines of GLSL that evaluate the model at its default choices."""
-    constants = {p.name: p.default for p in model.parameters if p.constant}
+    constants = model.constants(model.defaults())
     text = compose.measured(model, constants, "scatter")["fragment"].text
     return sum(
         1 for line in text.split("\n") if line.strip() and not line.lstrip().startswith("//")

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from .errors import Mistake, nearest
 from .files import GLSL, read_text
-from .glsltext import without_comments
+from .glsltext import check_comments, without_comments
 from .parameter import TINT, Parameter, parse_uniform
 
 SOURCE_LIMIT = 1 << 20  # bytes of one GLSL file; a longer one is refused before any driver sees it
@@ -78,6 +78,15 @@ class Shader(NamedTuple):
         """Return {parameter name: default value}."""
         return {parameter.name: parameter.default for parameter in self.parameters}
 
+    @property
+    def transmits(self):
+        """Whether light passes the surface: L or V may be below it."""
+        return self.header.get("sides") == "both"
+
+    def constants(self, values):
+        """Return those of values that are compiled in, the choices and toggles."""
+        return {p.name: values[p.name] for p in self.parameters if p.constant}
+
     def in_radians(self, values):
         """Return values with those given in degrees in radians, as the shader takes them."""
         angles = {p.name: math.radians(values[p.name]) for p in self.parameters if p.degrees}
@@ -144,7 +153,7 @@ def parse(kind, name, path, text):
     if not ours:
         from . import contract  # 8 ms, and what comes with Lumiar is tested to keep it
 
-        contract.check_comments(text, path)
+        check_comments(text, path)
     code, lines = without_comments(text), text.split("\n")
     parameters = {}
     for number, bare in enumerate(code.split("\n"), 1):

@@ -56,7 +56,7 @@ def surface(model, lights, rate, constants, two_sided=True, transformed=True):
         "two_sided": two_sided,
         "transformed": transformed,
         "tangent": "tangent" in model.needs,
-        "opaque": model.header.get("sides") != "both",
+        "opaque": not model.transmits,
         "surround": bool(kinds["environment"]) and "surround" in model.defines,
     }
     frame = f"lib/frame_{'tangent' if facts['tangent'] else 'normal'}.glsl"

@@ -33,7 +33,6 @@ _HEAD = re.compile(
 _ENDLESS = re.compile(
     r"\b(?:for\s*\(\s*[^;()]*;\s*(?:true)?\s*;[^()]*\)|while\s*\(\s*true\s*\))\s*"
 )
-_COMMENT = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)", re.DOTALL)
 _LEAVES = re.compile(r"\b(?:break|return)\b")
 
 
@@ -66,19 +65,6 @@ def check(code, path, wanted):
         if not _LEAVES.search(_body(code, found)):
             refuse(found.start(), "a loop without an end; give it a condition or a break")
     return frozenset(names)
-
-
-def check_comments(text, path):
-    """Raise Mistake for a comment that is never closed, or that swallows the line below it."""
-    for found in _COMMENT.finditer(text):
-        comment = found.group()
-        if comment.startswith("/*") and not (comment.endswith("*/") and len(comment) > 3):
-            why = "this comment is never closed by */"
-        elif comment.startswith("//") and comment.endswith("\\"):
-            why = "a comment that ends in \\ swallows the line below; end it otherwise"
-        else:
-            continue
-        raise Mistake(f"{path}:{text.count(chr(10), 0, found.start()) + 1}: {why}")
 
 
 def _check_brackets(code, refuse):

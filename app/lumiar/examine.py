@@ -23,7 +23,7 @@ class Examination:
 
     def __init__(self, model, instrument, seed):
         self.model, self.instrument, self.seed = model, instrument, seed
-        self.both = model.header.get("sides") == "both"
+        self.both = model.transmits
         self.references = _references(model)
         w = hostile.directions(model.defaults())
         above = w if self.both else w[w[:, 2] > hostile.BELOW * 2]
@@ -76,7 +76,7 @@ class Examination:
         self._reciprocal(values)
         self._conserving(values)
         if compared and not values.get("compensated"):  # a fit: see _conserving for its furnace
-            for what in self.references:
+            for what in tuple(self.references):
                 self._error(values, corner, what)
 
     def verdicts(self):
@@ -166,7 +166,7 @@ class Examination:
             strong = np.maximum(a, b) > 1e-4 * peak
             if not peak > 0.0 or not strong.any():
                 continue
-            if part is not None and through[part].any():  # the one factor: n^2
+            if through[part].any():  # the one factor: n^2
                 up = V[part, 2:] > 0.0
                 sums = a[strong & up].sum(), b[strong & up].sum()
                 ratio = sums[0] / sums[1] if sums[1] > 0.0 else 1.0
@@ -208,6 +208,12 @@ class Examination:
             turns = np.repeat(self.turns, len(self.angles))
             self._furnaces[index] = pairs, weights, angles, turns
         return self._furnaces[index]
+
+    def forget(self):
+        """Free what the hard cases take on the graphics card."""
+        furnaces = (furnace[0] for furnace in self._furnaces.values())
+        for pairs in (self.cases, self.compared, self.turned, *furnaces):
+            self.instrument.forget(pairs)
 
     def _error(self, values, corner, what):
         """Compare float32 with float64, and with what the rounding of float32 input alone does."""

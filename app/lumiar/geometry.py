@@ -224,11 +224,10 @@ def _buffers(path, data):
     """Return the addresses of the buffers that a glTF file names; none where it is damaged."""
     import json
 
-    text = bytes(data)
-    if path.lower().endswith(".glb"):
-        text = text[20 : 20 + int.from_bytes(text[12:16], "little")]
+    if path.lower().endswith(".glb"):  # its first chunk; the rest may be half a gigabyte
+        data = data[20 : 20 + int.from_bytes(data[12:16], "little")]
     try:
-        buffers = json.loads(text.decode("utf-8-sig"))["buffers"]
+        buffers = json.loads(bytes(data).decode("utf-8-sig"))["buffers"]
         uris = [buffer.get("uri") for buffer in buffers]
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return []

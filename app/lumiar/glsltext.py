@@ -3,6 +3,8 @@
 import re
 from typing import NamedTuple
 
+from .errors import Mistake
+
 _WORD = re.compile(r"[A-Za-z_]\w*")
 _BRACKET = re.compile(r"[][(){}]")
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)", re.DOTALL)
@@ -26,6 +28,19 @@ class Chunk(NamedTuple):
 def without_comments(text):
     """Return GLSL text without its comments, all lines in place."""
     return _COMMENT.sub(lambda found: "\n" * found.group().count("\n"), text)
+
+
+def check_comments(text, path):
+    """Raise Mistake for a comment that is never closed, or that swallows the line below it."""
+    for found in _COMMENT.finditer(text):
+        comment = found.group()
+        if comment.startswith("/*") and not (comment.endswith("*/") and len(comment) > 3):
+            why = "this comment is never closed by */"
+        elif comment.startswith("//") and comment.endswith("\\"):
+            why = "a comment that ends in \\ swallows the line below; end it otherwise"
+        else:
+            continue
+        raise Mistake(f"{path}:{text.count(chr(10), 0, found.start()) + 1}: {why}")
 
 
 def included(line):

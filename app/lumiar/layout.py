@@ -57,14 +57,10 @@ def arrange(scene, geometries):
 
 def constants(scene, placed):
     """Return {name: value} of what is compiled in for an object, as `compose.surface` takes it."""
-    shaders = [(placed.object.model, placed.object.values, "")]
-    shaders += [(one.kind, one.values, f"_{i}") for i, one in enumerate(scene.lights, 1)]
-    return {
-        parameter.name + suffix: values[parameter.name]
-        for shader, values, suffix in shaders
-        for parameter in shader.parameters
-        if parameter.constant
-    }
+    fixed = placed.object.model.constants(placed.object.values)
+    for i, one in enumerate(scene.lights, 1):
+        fixed |= {f"{name}_{i}": v for name, v in one.kind.constants(one.values).items()}
+    return fixed
 
 
 def sources(scene, placed):

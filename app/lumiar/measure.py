@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import catalog, compose, layout
-from .renderer import compiled, open_context
+from .renderer import OnCard, compiled
 
 WIDTH = 1024  # pairs in a row of a texture
 CALM = 9  # runs whose median is a time
@@ -29,35 +29,19 @@ class Pairs(NamedTuple):
     target: object
 
 
-class Instrument:
-    """Evaluates models in one OpenGL context; release it or use `with`."""
+class Instrument(OnCard):
+    """Evaluates models; release it or use `with`."""
 
     def __init__(self, context=None):
-        self.context = context or open_context()
-        self._owns_context = context is None
-        self._programs, self._pairs = {}, []
-        with self.context:
-            self._idle = self.context.framebuffer([self.context.renderbuffer((1, 1))])
+        super().__init__(context)
+        self._programs, self._pairs, self._timed = {}, [], None
 
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.release()
-
-    def release(self):
-        """Free everything on the graphics card; the second time does nothing."""
-        if self.context is None:
-            return
-        with self.context:
-            for program, array in self._programs.values():
-                array.release()
-                program.release()
+    def _free(self):
+        for program, array in self._programs.values():
+            array.release()
+            program.release()
         for pairs in self._pairs:
-            self.forget(pairs)
-        if self._owns_context:
-            self.context.release()
-        self.context = None
+            self._free_pairs(pairs)
 
     def pairs(self, L, V):
         """Return Pairs of directions (n, 3) each, to be measured as often as wanted."""
@@ -66,10 +50,13 @@ class Instrument:
     def forget(self, pairs):
         """Free the memory of Pairs."""
         with self.context:  # another one may be the current one
-            self._idle.use()  # a framebuffer that goes while bound leaves an error behind
-            for made in (pairs.target, *pairs.target.color_attachments, pairs.L, pairs.V):
-                made.release()
+            self._free_pairs(pairs)
         self._pairs = [one for one in self._pairs if one is not pairs]
+
+    def _free_pairs(self, pairs):
+        self._free_framebuffer(pairs.target)
+        pairs.L.release()
+        pairs.V.release()
 
     def scatter(self, model, values, pairs, strict=False):
         """Return f(L, V) |N.L| of a model for Pairs, (n, 3) float32 [1/sr]; NaN where cut short.
@@ -110,16 +97,17 @@ class Instrument:
         above the surface. Only its ratio to another model's on the same machine means anything.
         """
         pairs = self._timed_pairs()
+        nothing = catalog.parse("model", "nothing", "nothing.glsl", NOTHING)
+        jobs = ((nothing, {}), (model, values))
         with self.context:  # which does not nest
-            spent = [self._race(model, values, pairs) for _ in range(CALM + 1)]
+            spent = [self._race(jobs, pairs) for _ in range(CALM + 1)]
         low, middle, high = statistics.quantiles(spent[1:], n=4)  # the first one compiled
         return middle, high - low
 
-    def _race(self, model, values, pairs):
-        """Return how many ns an evaluation takes longer than one of a model that does nothing."""
+    def _race(self, jobs, pairs):
+        """Return how many ns longer an evaluation of the second (model, values) takes."""
         spent = []
-        nothing = catalog.parse("model", "nothing", "nothing.glsl", NOTHING)
-        for one, its in ((nothing, {}), (model, values)):
+        for one, its in jobs:
             array = self._prepared(one, its, "timed", TIMED[1])
             pairs.target.use()
             pairs.L.use(0)
@@ -133,12 +121,11 @@ class Instrument:
 
     def _timed_pairs(self):
         """Return Pairs above the surface, spread evenly, in a square texture of TIMED pixels."""
-        if not self._pairs or self._pairs[0].target.width != TIMED[0]:
+        if not self._timed:
             generator = np.random.default_rng(1)
             L, V = (upper(generator.random((TIMED[0] ** 2, 2))) for _ in range(2))
-            self._pairs.insert(0, self._upload(L, V, (TIMED[0], TIMED[0])))
-            self._pairs.pop()  # `_upload` appended it
-        return self._pairs[0]
+            self._timed = self._upload(L, V, (TIMED[0], TIMED[0]))
+        return self._timed
 
     def _upload(self, L, V, size):
         textures = []
@@ -170,7 +157,7 @@ class Instrument:
 
     def _prepared(self, model, values, what, repeats=0, strict=False):
         """Return the vertex array that evaluates a model with these values, compiled once."""
-        constants = {p.name: values[p.name] for p in model.parameters if p.constant}
+        constants = model.constants(values)
         key = (model.text, what, strict, *constants.items())
         if key not in self._programs:
             program = compiled(self.context, compose.measured(model, constants, what, strict))
@@ -266,7 +253,7 @@ def albedo_pairs(angles, azimuth, nodes, index, shrink=3.0):
         sets.append((np.broadcast_to(L, V.shape), V, w / abs(L[2])))
     most = max(len(w) for _, _, w in sets)  # every angle has its own panels: fill up with nothing
     up = np.array([0.0, 0.0, 1.0])
-    L, V, weights = np.zeros((len(sets), most, 3)) + up, np.zeros((len(sets), most, 3)) + up, None
+    L, V = (np.zeros((len(sets), most, 3)) + up for _ in range(2))
     weights = np.zeros((len(sets), most))
     for i, (one, other, w) in enumerate(sets):
         L[i, : len(w)], V[i, : len(w)], weights[i, : len(w)] = one, other, w

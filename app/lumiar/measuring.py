@@ -30,7 +30,7 @@ class Chosen(NamedTuple):
     @property
     def highest(self):
         """How far from the normal a detector can see it, in degrees: 180 for both sides."""
-        return 180.0 if self.shader.header.get("sides") == "both" else 90.0
+        return 180.0 if self.shader.transmits else 90.0
 
     @property
     def eta(self):

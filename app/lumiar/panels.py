@@ -10,12 +10,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .difference import LUMINANCE
+
 INK, GREY = "#18181c", "#8a8a90"
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 STYLES = ("-", "--", "-.", ":")
 MARKERS = "os^Dv"
 CHANNELS = (("R", "#d55e00", "-"), ("G", "#009e73", "--"), ("B", "#0072b2", ":"))
-LUMINANCE = np.array([0.2126, 0.7152, 0.0722])  # of linear sRGB, ITU-R BT.709
 STEEP, DECADES = 30.0, 5.0  # peak over median from which a scale is logarithmic; its length
 
 

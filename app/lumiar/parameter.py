@@ -108,6 +108,10 @@ class Parameter(NamedTuple):
             self._refuse(text, where)
         return self.check(numbers[0] if len(numbers) == 1 else numbers, where)
 
+    def refuse_time(self, where=""):
+        """Raise Mistake: this value follows the scene's time."""
+        raise Mistake(f"{where}{self.name} follows the time of the scene; set time instead")
+
     def _refuse(self, value, where):
         shown = f'"{value}"' if isinstance(value, str) else repr(value).lower()
         raise Mistake(f"{where}{self.name} = {shown} is not possible; allowed: {self.allowed()}")

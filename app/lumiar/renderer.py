@@ -53,15 +53,13 @@ def compiled(context, sources):
         raise Mistake(f"{where}the driver does not compile this: {message}") from None
 
 
-class Renderer:
-    """Draws scenes in one OpenGL context, its own unless one is given; release it or use `with`."""
+class OnCard:
+    """What holds objects in one OpenGL context, its own unless one is given."""
 
     def __init__(self, context=None):
         self.context = context or open_context()
         self._owns_context = context is None
-        self._programs, self._meshes, self._arrays, self._targets = {}, {}, {}, {}
-        self._idle, self._watches_loops = None, False
-        self._drawn = (None, [])  # the last scene and its jobs: most frames draw it again
+        self._idle = None
 
     def __enter__(self):
         return self
@@ -74,10 +72,7 @@ class Renderer:
         if self.context is None:
             return
         with self.context:
-            buffers = [b for _, *three in self._meshes.values() for b in three if b]
-            for made in (*self._arrays.values(), *self._programs.values(), *buffers):
-                made.release()
-            self._release_targets()
+            self._free()
             if self._idle:
                 (attachment,) = self._idle.color_attachments
                 attachment.release()
@@ -85,6 +80,34 @@ class Renderer:
         if self._owns_context:
             self.context.release()
         self.context = None
+
+    def _free(self):
+        """Free what the class itself has made, in the context."""
+
+    def _free_framebuffer(self, framebuffer):
+        """Free a framebuffer and what is attached to it; one that goes while bound is an error."""
+        self._idle = self._idle or self.context.framebuffer([self.context.renderbuffer((1, 1))])
+        self._idle.use()
+        for attachment in (*framebuffer.color_attachments, framebuffer.depth_attachment):
+            if attachment:
+                attachment.release()
+        framebuffer.release()
+
+
+class Renderer(OnCard):
+    """Draws scenes; release it or use `with`."""
+
+    def __init__(self, context=None):
+        super().__init__(context)
+        self._programs, self._meshes, self._arrays, self._targets = {}, {}, {}, {}
+        self._watches_loops = False
+        self._drawn = (None, [])  # the last scene and its jobs: most frames draw it again
+
+    def _free(self):
+        buffers = [b for _, *three in self._meshes.values() for b in three if b]
+        for made in (*self._arrays.values(), *self._programs.values(), *buffers):
+            made.release()
+        self._release_targets()
 
     @property
     def name(self):
@@ -242,14 +265,8 @@ class Renderer:
         return self._targets[key]
 
     def _release_targets(self):
-        if self._targets:  # a framebuffer that goes while bound leaves an error behind
-            self._idle = self._idle or self.context.framebuffer([self.context.renderbuffer((1, 1))])
-            self._idle.use()
         for framebuffer in (f for pair in self._targets.values() for f in pair):
-            for attachment in (*framebuffer.color_attachments, framebuffer.depth_attachment):
-                if attachment:
-                    attachment.release()
-            framebuffer.release()
+            self._free_framebuffer(framebuffer)
         self._targets.clear()
 
     def _check_size(self, width, height, side):

@@ -211,7 +211,7 @@ def _given(shader, key, value, where):
     """Return the checked value of a parameter; one that follows the time is not to be set."""
     parameter = shader.parameter(key)
     if parameter.widget == "time" and value != parameter.default:
-        raise Mistake(f"{where}{key} follows the time of the scene; set time instead")
+        parameter.refuse_time(where)
     return parameter.check(value, where)
 
 

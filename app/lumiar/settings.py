@@ -166,5 +166,5 @@ def _light_with(one, key, value, where):
 
 def _typed(parameter, value, where):
     if parameter.widget == "time":
-        raise Mistake(f"{where}{parameter.name} follows the time of the scene; set time instead")
+        parameter.refuse_time(where)
     return parameter.read(value, where) if isinstance(value, str) else value
