@@ -75,13 +75,13 @@ def _dispatch(argv):
         return 0
     if argv[0] not in VERBS:
         raise Mistake(f"no verb '{argv[0]}'; {nearest(argv[0], VERBS)}")
-    from . import options
+    from . import arguments
 
     if argv[0] in ("measure", "audit"):
         from . import lab as verbs
     else:
         from . import verbs
-    return getattr(verbs, argv[0])(options.parse(argv[0], argv[1:]))
+    return getattr(verbs, argv[0])(arguments.parse(argv[0], argv[1:]))
 
 
 def _own_fault(error):
