@@ -11,7 +11,7 @@ from .glsltext import check_comments, without_comments
 from .parameter import TINT, Parameter, parse_uniform
 
 SOURCE_LIMIT = 1 << 20  # bytes of one GLSL file; a longer one is refused before any driver sees it
-CLAIMS = ("positive", "reciprocal", "conserving")
+CLAIMS = ("positive", "reciprocal", "conserving", "constant")
 NEEDS = ("tangent",)  # what a file may ask of the rig beyond the normal
 FOLDERS = {"model": "models", "light": "lights"}
 DEFINES = {
