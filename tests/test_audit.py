@@ -28,6 +28,7 @@ def planted(folder, name, header, body, parameters=""):
 def test_a_shipped_model_is_as_it_claims_and_as_exact(name, instrument):
     sheet = audit.audit(catalog.read("model", name), instrument)
     assert sheet["broken"] == []
+    assert all(said["verdict"] in ("holds", "does not hold") for said in sheet["claims"].values())
     assert {k: sheet["hostile"][k] for k in ("nan", "infinite", "negative")} == {
         "nan": 0,
         "infinite": 0,
@@ -82,6 +83,16 @@ BROKEN = {
         "vec3 scatter(vec3 L, vec3 V) { return vec3(max(L.z, 0.0) * (V.z - 0.1)); }",
         "positive",
     ),
+    "a lobe called constant": (
+        "// claims  positive, constant",
+        "vec3 scatter(vec3 L, vec3 V) { return vec3(0.1 * max(L.z, 0.0) * (1.0 + 1e-4 * V.x)); }",
+        "constant",
+    ),
+    "a light from below called constant": (
+        "// claims  positive, constant",
+        "vec3 scatter(vec3 L, vec3 V) { return vec3(0.1 * abs(L.z)); }",
+        "constant",
+    ),
     "a claim kept silent": (
         "// claims  positive",
         "vec3 scatter(vec3 L, vec3 V) { return vec3(0.1 * max(L.z, 0.0)); }",
@@ -106,6 +117,12 @@ def test_a_toggle_that_works_the_wrong_way_round_breaks_its_claim(instrument, tm
     )
     sheet = audit.audit(catalog.read("model", str(tmp_path / "mine.glsl")), instrument)
     assert any("off the float64 reference" in line for line in sheet["broken"])
+
+
+def test_what_scatters_evenly_claims_to_be_constant():
+    shipped = {name: catalog.read("model", name).claims for name in catalog.names("model")}
+    even = {name for name, claims in shipped.items() if "constant" in claims}
+    assert even - {"conductor", "dielectric", "black_body"} == {"lambert", "transparency"}
 
 
 def test_a_gain_that_hides_between_the_corners_is_found(instrument, tmp_path):
@@ -142,6 +159,7 @@ def test_a_users_own_model_has_no_reference_and_says_so(instrument, tmp_path):
     sheet = audit.audit(planted(tmp_path, "mine", claims, body), instrument)
     assert sheet["error"] is None and "not measured" in audit.text(sheet)
     assert sheet["broken"] == []
+    assert sheet["claims"]["constant"]["verdict"] == "holds, unclaimed"  # it may keep silent
 
 
 @pytest.mark.parametrize("mu", [1.0, 0.5, 0.1])

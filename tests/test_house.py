@@ -14,7 +14,7 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "errors",
     "files",
     "parameter cache supervise polygons reference_terms camera tomltext driverlog glsltext "
-    "difference contract image sheet gonio captions arguments",
+    "difference contract image sheet gonio captions claims arguments",
     "catalog mesh reference tables panels",
     "formats shapes plots",
     "geometry compose parts materials",

@@ -29,7 +29,7 @@ def audit(model, instrument, seed=0):
         "title": model.header.get("model", model.name),
         "paper": model.header.get("paper", ""),
         "note": model.header.get("note", ""),
-        "claims": run.verdicts(),
+        "claims": run.findings.verdicts(),
         "hostile": run.counts,
         "error": run.errors(),
         "albedo": _curve(model, instrument),

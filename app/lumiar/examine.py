@@ -6,8 +6,8 @@ import os
 import numpy as np
 
 from . import catalog, hostile, measure, reference
+from .claims import TOLERANCE, Findings
 
-TOLERANCE = {"reciprocal": 1e-3, "conserving": 1e-3}  # relative; of an albedo
 ANGLES = (0.0, 30.0, 60.0, 75.0, 85.0, 89.0)  # degrees of incidence at which energy is summed
 RESOLVED = 1e-2  # error of an albedo beyond which it proves nothing
 MOST = 300  # settings at slider ends; beyond, each choice gets its share of the corners
@@ -36,7 +36,7 @@ class Examination:
         angles = np.radians([*ANGLES, *(180.0 - a for a in ANGLES if self.both)])
         self.turns, self.angles, self._furnaces = turns, angles, {}
         self.counts = {"evaluations": 0, "nan": 0, "infinite": 0, "negative": 0, "where": {}}
-        self.worst = {name: {} for name in ("positive", *TOLERANCE)}
+        self.findings = Findings(model)
         self.found = {"default": [], "corners": []}
 
     def everything(self):
@@ -72,50 +72,18 @@ class Examination:
             seen = self.instrument.surround(self.model, values, self.cases, strict=True)
             self._count(seen, values, "surround")
             brightest = float(np.nan_to_num(seen, nan=np.inf).max())
-            self._note("conserving", brightest - 1.0, values, f"in a white furnace {brightest:.6g}")
+            what = f"in a white furnace {brightest:.6g}"
+            self.findings.note("conserving", brightest - 1.0, values, what)
+        self._constant(found, values)
         self._reciprocal(values)
         self._conserving(values)
         if compared and not values.get("compensated"):  # a fit: see _conserving for its furnace
             for what in tuple(self.references):
                 self._error(values, corner, what)
 
-    def verdicts(self):
-        """Return {claim: what became of it}."""
-        out = {}
-        for name, worst in self.worst.items():
-            claimed, limit = self.model.claims.get(name), TOLERANCE.get(name, 0.0)
-            inside = [w for within, w in worst.items() if within]
-            outside = [w for within, w in worst.items() if not within]
-            holds = all(amount <= limit for amount, *_ in inside)
-            fails = any(amount > limit for amount, *_ in outside)
-            if claimed is not None and not holds:
-                verdict = "broken"
-            elif outside and not fails:
-                verdict = "holds, unclaimed"
-            else:
-                verdict = "holds" if claimed is not None else "does not hold"
-            amount, where, what = max(worst.values(), default=(0.0, "", ""))
-            if claimed is not None and inside:
-                amount, where, what = max(inside)
-            out[name] = {
-                "claimed": "no" if claimed is None else claimed or "yes",
-                "verdict": verdict,
-                "worst": amount,
-                "what": what,
-                "where": where,
-            }
-        return out
-
     def broken(self):
         """Return one line for each thing a header must not say, or keep silent about."""
-        lines = []
-        for name, said in self.verdicts().items():
-            if said["verdict"] == "broken":
-                lines.append(f"claims '{name}', but {said['what']} at {said['where']}")
-            elif said["verdict"] == "holds, unclaimed":
-                condition = self.model.claims.get(name)
-                beyond = f" beyond ({condition})" if condition else ""
-                lines.append(f"'{name}' holds everywhere{beyond}; claim it")
+        lines = self.findings.broken()
         error = (self.errors() or {}).get("default")
         if error and error["beyond"] > WRONG:
             lines.append(f"{error['beyond']:.1%} off the float64 reference at {error['where']}")
@@ -146,11 +114,23 @@ class Examination:
                 i = int(rows.argmax())
                 self.counts["where"].setdefault(kind, self._place(values, i, what))
         least = -float(np.nanmin(found, initial=0.0))
-        self._note("positive", least, values, f"{what} is {-least:.3g}")
+        self.findings.note("positive", least, values, f"{what} is {-least:.3g}")
+
+    def _constant(self, found, values):
+        """Compare f of all hard cases above the surface, and with 0 of those that pass it."""
+        if self.findings.settled("constant", values):
+            return
+        z = np.abs(self.L[:, 2])
+        steady = (z > 1e-3) & (np.abs(self.V[:, 2]) > 1e-3)
+        f = np.nan_to_num(found[steady] / z[steady, None], posinf=1e30, neginf=-1e30)
+        above = (self.L[steady, 2] > 0.0) & (self.V[steady, 2] > 0.0)
+        spread = max(np.ptp(f[above], axis=0).max(), np.abs(f[~above]).max(initial=0.0))
+        spread = float(spread / max(np.abs(f).max(), 1e-30))  # 1e-30: nothing is scattered
+        self.findings.note("constant", spread, values, f"f varies by {spread:.2%} of its peak")
 
     def _reciprocal(self, values):
         """Compare f(L, V) with f(V, L), up to one factor n^2 where light passes the surface."""
-        if self._settled("reciprocal", values):
+        if self.findings.settled("reciprocal", values):
             return
         L, V = self.fair
         there, back = (
@@ -176,11 +156,11 @@ class Examination:
             i = int(off.max(axis=1).argmax())
             pair = f"{_degrees(L[part][i])}, {_degrees(V[part][i])}"
             what = f"f(L, V) and f(V, L) differ by {off.max():.2%} for {pair}"
-            self._note("reciprocal", float(off.max()), values, what)
+            self.findings.note("reciprocal", float(off.max()), values, what)
 
     def _conserving(self, values):
         """Sum the light that leaves, for light from all angles, as finely as doubt asks for."""
-        if self._settled("conserving", values):
+        if self.findings.settled("conserving", values):
             return
         pairs, weights, angles, turns = self._furnace(self.both and measure.index_of(values))
         found = self.instrument.scatter(self.model, values, pairs, strict=True)
@@ -196,7 +176,7 @@ class Examination:
                 return  # a ridge too narrow for the panels: nothing can be said
             most = float(finer.max() - error[0])
         what = f"the albedo is {most:.4g} for light at {math.degrees(angles[i]):.4g} degrees"
-        self._note("conserving", most - 1.0, values, what)
+        self.findings.note("conserving", most - 1.0, values, what)
 
     def _furnace(self, index):
         """Return (Pairs, weights (k, m), angles (k,), azimuths (k,)) for an index of refraction."""
@@ -253,19 +233,6 @@ class Examination:
             return self.references[what](L, V, **given)
         except (TypeError, KeyError):
             return None
-
-    def _settled(self, name, values):
-        """Return whether what is not claimed of these values is known to fail already."""
-        if self.model.covers(name, values):
-            return False
-        return self.worst[name].get(False, (0.0,))[0] > TOLERANCE[name]
-
-    def _note(self, name, amount, values, what):
-        """Keep the worst of a property, within what its claim covers and beyond."""
-        within = self.model.covers(name, values)
-        kept = self.worst[name].get(within)
-        if kept is None or amount > kept[0]:
-            self.worst[name][within] = (amount, self.model.changes(values), what)
 
     def _place(self, values, i, what):
         if what == "surround":

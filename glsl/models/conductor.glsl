@@ -1,6 +1,6 @@
 // model   Conductor
 // paper   A. Fresnel, 1823; M. Born and E. Wolf, "Principles of optics", ch. 14; f82: N. Hoffman, 2019
-// claims  positive, reciprocal, conserving
+// claims  positive, reciprocal, conserving, constant
 // note    a smooth metal: point lights have no highlight, only the surroundings are mirrored
 #include "lib/fresnel.glsl"
 

@@ -1,6 +1,6 @@
 // model   Dielectric
 // paper   A. Fresnel, 1823; W. Snell, 1621
-// claims  positive, reciprocal, conserving
+// claims  positive, reciprocal, conserving, constant
 // sides   both
 // note    one smooth boundary, such as water: mirrors and refracts the surroundings, from either side
 #include "lib/fresnel.glsl"

@@ -1,6 +1,6 @@
 // model   Lambert
 // paper   J. H. Lambert, "Photometria, sive de mensura et gradibus luminis, colorum et umbrae", 1760
-// claims  positive, reciprocal, conserving (form = normalised)
+// claims  positive, reciprocal, conserving (form = normalised), constant
 // note    the slide calls the BRDF a constant; read as k_d, without the 1/pi, it returns pi times the light
 #include "lib/sampling.glsl"
 

@@ -1,6 +1,6 @@
 // model   Transparency
 // paper   T. Porter and T. Duff, "Compositing digital images", SIGGRAPH 1984: over, on linear values
-// claims  positive, reciprocal, conserving
+// claims  positive, reciprocal, conserving, constant
 // note    the lecture's approximation: what lies behind shows through, and no ray is bent
 #include "lib/constants.glsl"
 
