@@ -6,7 +6,7 @@ import subprocess
 
 import pytest
 
-from lumiar import catalog, compose, glsltext
+from lumiar import catalog, compose, flatten, glsltext
 from lumiar.errors import Mistake
 
 LIGHTS = catalog.names("light")
@@ -201,7 +201,7 @@ def test_includes_stay_on_their_floor(line, told):
 def test_a_file_is_included_once_and_circles_are_refused(tmp_path, monkeypatch):
     for folder in ("rigs", "models", "lights", "lib"):
         shutil.copytree(f"{compose.GLSL}/{folder}", tmp_path / folder)
-    monkeypatch.setattr(compose, "GLSL", str(tmp_path))
+    monkeypatch.setattr(flatten, "GLSL", str(tmp_path))
     (tmp_path / "lib" / "a.glsl").write_text('#include "lib/b.glsl"\nfloat a() { return b(); }\n')
     (tmp_path / "lib" / "b.glsl").write_text("float b() { return 1.0; }\n")
     text = '#include "lib/b.glsl"  // once\n#include "lib/a.glsl"\n'

@@ -8,6 +8,7 @@ import pytest
 
 from lumiar import camera, layout
 from lumiar import renderer as module
+from lumiar import stock
 from lumiar.errors import Mistake
 from lumiar.parts import Panel
 from lumiar.picture import capture, radiance
@@ -32,7 +33,7 @@ def lit(*names, **values):
 
 
 def placed(scene, renderer):
-    return layout.arrange(scene, [renderer._mesh(one)[0] for one in scene.objects])
+    return layout.arrange(scene, [renderer._stock.mesh(one)[0] for one in scene.objects])
 
 
 def captured(scene, renderer, program, names):
@@ -41,7 +42,7 @@ def captured(scene, renderer, program, names):
     for name, value in layout.uniforms(scene, spot).items():
         if name in program:
             program[name].write(value)
-    entry = renderer._mesh(spot.object)
+    entry = renderer._stock.mesh(spot.object)
     count = entry[0].vertex_count if names == ["rig_front"] else 3 * entry[0].triangle_count
     out = renderer.context.buffer(reserve=12 * count)
     array = renderer.context.vertex_array(
@@ -622,6 +623,6 @@ def test_a_hundred_meshes_are_not_all_kept():
         first = radiance(scene.set(mesh="uv_sphere:rings=2"), renderer)
         for rings in range(3, 103):
             radiance(scene.set(mesh=f"uv_sphere:rings={rings}:segments=4"), renderer)
-            assert len(renderer._meshes) <= module.MESHES + 1
-            assert len(renderer._arrays) <= module.MESHES + 8
+            assert len(renderer._stock.meshes) <= stock.MESHES + 1
+            assert len(renderer._stock.arrays) <= stock.MESHES + 8
         assert (radiance(scene.set(mesh="uv_sphere:rings=2"), renderer) == first).all()

@@ -163,7 +163,7 @@ def test_a_scene_is_frozen():
         ("[[object]]\nscale = [1, 0, 1]", 2, "flattens the mesh"),
         ("[[object]]\nspecular = 1", 2, "specular = 1 is not possible; allowed: true or false"),
         ("[[object]]\nform = 'slides'", 2, "allowed: one of slide, normalised"),
-        ("[[light]]\nkind = 'sun'", 2, "light 1: no light 'sun'"),
+        ("[[light]]\nkind = 'moon'", 2, "light 1: no light 'moon'"),
         (
             "[[light]]\nkind = 'point'\nintensity = -1",
             3,

@@ -20,11 +20,16 @@ DEFINES = {
         "surround": "vec3 surround(vec3 V)",
         "sample_scatter": "vec3 sample_scatter(vec3 V, vec2 u, out vec3 L)",
         "scatter_pdf": "float scatter_pdf(vec3 L, vec3 V)",
+        "emitted": "vec3 emitted(vec3 V)",
     },
     "light": {
         "light": "Incident light(vec3 position, vec2 u)",
         "environment": "vec3 environment(vec3 direction)",
         "ambience": "vec3 ambience(vec3 normal)",
+        "irradiance": "vec3 irradiance(vec3 place, vec3 normal)",
+        "arriving": "vec3 arriving(vec3 place, vec3 direction)",
+        "density": "float density(vec3 place, vec3 direction)",
+        "reach": "float reach(vec3 place, vec3 direction)",
     },
 }
 REQUIRED = {"model": ("scatter",), "light": ("light", "environment")}  # one of these
@@ -40,7 +45,17 @@ OWN_KEYS = {  # scene keys of an object or a light, which no parameter may take 
         "fit",
         "crease",
     ),
-    "light": ("kind", "name"),
+    "light": (
+        "kind",
+        "name",
+        "unit",
+        "temperature",
+        "illuminant",
+        "image",
+        "samples",
+        "shadows",
+        "visible",
+    ),
 }
 SCENE_KEYS = (  # of the scene itself, which no parameter may take over either
     "size",
@@ -48,6 +63,7 @@ SCENE_KEYS = (  # of the scene itself, which no parameter may take over either
     "shading",
     "background",
     "exposure",
+    "ev100",
     "tone",
     "time",
     "lang",
@@ -55,13 +71,14 @@ SCENE_KEYS = (  # of the scene itself, which no parameter may take over either
 )
 _FUNCTION = re.compile(r"^\w+ (\w+)\(", re.MULTILINE)  # as our own files are written
 _UNIFORM = re.compile(r"\buniform\b")
+_GIVEN = re.compile(r"\s*uniform\s+\w+\s+(\w+)[^;]*;\s*// given: ")
 
 
 class Shader(NamedTuple):
     """One GLSL file: kind is model, light or rig; name is what a scene calls it by.
 
     claims maps each claimed property to the condition it is claimed under ("" for always);
-    defines holds the names of its functions.
+    defines holds the names of its functions, given those of the uniforms that the host computes.
     """
 
     kind: str
@@ -73,6 +90,7 @@ class Shader(NamedTuple):
     needs: tuple[str, ...]
     defines: frozenset[str]
     parameters: tuple[Parameter, ...]
+    given: tuple[str, ...] = ()
 
     def defaults(self):
         """Return {parameter name: default value}."""
@@ -82,6 +100,16 @@ class Shader(NamedTuple):
     def transmits(self):
         """Whether light passes the surface: L or V may be below it."""
         return self.header.get("sides") == "both"
+
+    @property
+    def sampled(self):
+        """Whether a light has an extent, over which `light` draws directions by chance."""
+        return "sampled" in self.header
+
+    @property
+    def tinted(self):
+        """The parameter that unit, temperature and illuminant of a light speak of, or None."""
+        return next((parameter for parameter in self.parameters if parameter.tinted), None)
 
     def constants(self, values):
         """Return those of values that are compiled in, the choices and toggles."""
@@ -155,10 +183,13 @@ def parse(kind, name, path, text):
 
         check_comments(text, path)
     code, lines = without_comments(text), text.split("\n")
-    parameters = {}
+    parameters, given = {}, []
     for number, bare in enumerate(code.split("\n"), 1):
         if not _UNIFORM.search(bare) or (kind == "rig" and "rig_" in bare):
             continue  # what the rigs themselves set is no parameter
+        if ours and (found := _GIVEN.match(lines[number - 1])):
+            given.append(found.group(1))
+            continue
         parameter = parse_uniform(lines[number - 1], number, path)
         if parameter.name in parameters:
             raise Mistake(f"{path}:{number}: '{parameter.name}' is declared twice; keep one line")
@@ -189,7 +220,8 @@ def parse(kind, name, path, text):
             raise Mistake(f"{path}:{places['needs']}: needs '{word}'; {nearest(word, NEEDS)}")
     claims = _claims(header.get("claims", ""), parameters, f"{path}:{places.get('claims', 1)}: ")
     parameters = tuple(parameters.values())
-    return Shader(kind, name, path, text, header, claims, needs, defines, parameters)
+    fields = (kind, name, path, text, header, claims, needs, defines, parameters)
+    return Shader(*fields, tuple(given))
 
 
 def _header(lines):

@@ -1,63 +1,66 @@
-"""Rig + chosen files + constants → one GLSL source per stage, and where each line came from."""
+"""Model, lights and rate → the GLSL source of each stage, with only what the scene needs."""
 
 import os
 import re
-from typing import NamedTuple
 
-from .catalog import SOURCE_LIMIT, read
-from .errors import Mistake
-from .files import GLSL, read_text
-from .glsltext import chunks, included, unreachable, without_comments
+from .catalog import read
+from .files import GLSL
+from .flatten import finish, flatten, load, loops, marked
+from .glsltext import chunks, included, without_comments
 
 STAGES = {
     "flat": {"vertex": "flat.vert", "geometry": "flat.geom", "fragment": "flat.frag"},
     "gouraud": {"vertex": "gouraud.vert", "fragment": "gouraud.frag"},
     "phong": {"vertex": "phong.vert", "fragment": "phong.frag"},
 }
-MAY_INCLUDE = {  # the floors of GLSL: which folders a file of a folder may include from
-    "rigs": ("rigs", "models", "lights", "demos", "lib"),
-    "models": ("lib",),
-    "lights": ("lib",),
-    "demos": ("lib",),
-    "lib": ("lib",),
-}
-MAX_FILES, MAX_DEPTH = 256, 64
-MAX_UNIFORMS, MAX_ARRAY = 1024, 4096  # beyond, a driver's compiler may crash instead of complaining
+SHOWS = ("radiance", "normal", "position", "eye", "toward", "object")  # what a surface can show
 
 _MACRO = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)", re.MULTILINE)
-_HIDING = re.compile(r"\b(max|min|clamp)(?=\s*\()")  # what may drop a NaN
-_LOOP = re.compile(r"\b(?:for|while)\b")
 
 
-class Source(NamedTuple):
-    """The GLSL text of one stage; lines[i] is the (file, line) that its line i + 1 came from."""
-
-    text: str
-    lines: tuple[tuple[str, int], ...]
-
-
-def surface(model, lights, rate, constants, two_sided=True, transformed=True):
+def surface(
+    model, lights, rate, constants, two_sided=True, transformed=True, shadows=(), shows="radiance"
+):
     """Return the sources {stage: Source} that draw an object of one model under all lights.
 
     model and lights are catalog Shaders, a light as often as the scene has it; rate is flat,
     gouraud or phong. constants maps the choices and toggles (those of light i as `name_i`, from 1)
     to the value compiled in. What none of these needs is not in the text. two_sided lights the back
-    of faces too; transformed moves the object from where its mesh lies. Raises Mistake naming
-    file:line.
+    of faces too; transformed moves the object from where its mesh lies. shadows holds the numbers
+    of the lights that cast them, from 1. shows is one of SHOWS: instead of radiance the normal or
+    the position in the world, the direction to the eye or to the first light in the local frame, or
+    the number of the object. Raises Mistake naming file:line.
     """
-    kinds = {word: [] for word in ("light", "environment", "ambience")}
+    words = ("light", "rig_lit", "environment", "ambience", "arriving", "toward")
+    kinds = {word: [] for word in words}
+    lit = []  # the rig's text for lights with an extent or with shadows
     for i, light in enumerate(lights, 1):
-        for word in kinds:
-            if word in light.defines:
-                kinds[word].append(f"{word}_{i}")
-            elif word == "ambience" and "environment" in light.defines:
-                kinds[word].append(f"environment_{i}")
+        if "environment" in light.defines:
+            kinds["environment"].append(f"environment_{i}")
+            if not light.sampled:
+                ambience = "ambience" if "ambience" in light.defines else "environment"
+                kinds["ambience"].append(f"{ambience}_{i}")
+        elif "arriving" in light.defines:
+            kinds["arriving"].append(f"arriving_{i}")
+        if "light" not in light.defines:
+            continue
+        kinds["toward"] += [f"light_{i}"][: shows == "toward" and not kinds["toward"]]
+        if light.sampled or i in shadows:
+            kinds["rig_lit"].append(f"rig_lit_{i}")
+            lit.append(_lit(model, light, i, constants, i in shadows))
+        else:
+            kinds["light"].append(f"light_{i}")
     facts = {
         "two_sided": two_sided,
         "transformed": transformed,
         "tangent": "tangent" in model.needs,
         "opaque": not model.transmits,
-        "surround": bool(kinds["environment"]) and "surround" in model.defines,
+        "surround": bool(kinds["environment"] or kinds["arriving"]) and "surround" in model.defines,
+        "arriving": bool(kinds["arriving"]),
+        "emitted": "emitted" in model.defines,
+        "sampled": any(light.sampled for light in lights),
+        "shadowed": bool(shadows),
+        **{word: word == shows for word in SHOWS},
     }
     frame = f"lib/frame_{'tangent' if facts['tangent'] else 'normal'}.glsl"
     places = {
@@ -66,12 +69,46 @@ def surface(model, lights, rate, constants, two_sided=True, transformed=True):
             (light.path, "lights", _renamed(light, i, constants))
             for i, light in enumerate(lights, 1)
         ],
-        "FRAME": [_load(frame)],
+        "LIT": lit,
+        "FRAME": [load(frame)],
     }
     return {
         stage: _watched(f"rigs/{file}", places, kinds, facts)
         for stage, file in STAGES[rate].items()
     }
+
+
+def backdrop(light, number, constants):
+    """Return the sources {stage: Source} that draw light `number` itself, as the eye sees it."""
+    around = "environment" in light.defines
+    words = ("environment",) if around else ("arriving", "reach")
+    kinds = {"environment": [], "arriving": [], "reach": []}
+    kinds |= {word: [f"{word}_{number}"] for word in words}
+    places = {"LIGHTS": [(light.path, "lights", _renamed(light, number, constants))]}
+    return {
+        "vertex": finish(flatten("rigs/backdrop.vert", {}, {}, {})),
+        "fragment": finish(flatten("rigs/backdrop.frag", places, kinds, {"shape": not around})),
+    }
+
+
+def _lit(model, light, number, constants, shadowed):
+    """Return (path, folder, text) of the rig's part for one light, its names numbered."""
+    values = {**model.defaults(), **constants}
+    exact = "irradiance" in light.defines and model.covers("constant", values)
+    both = {"sample_scatter", "scatter_pdf"} <= model.defines
+    facts = {
+        "extended": light.sampled,
+        "exact": exact and light.sampled,
+        "summed": light.sampled and (shadowed or not exact),
+        "balanced": both and not exact and {"density", "arriving"} <= light.defines,
+        "hidden": shadowed,
+        "near": "reach" in light.defines,
+    }
+    path, folder, text = load("rigs/lit.glsl")
+    lines = (next(iter(marked(line, {}, facts)), "") for line in text.split("\n"))
+    text = "\n".join(lines).replace("RIG_NUMBER", str(number))
+    names = _declared(_fixed(light, constants, f"_{number}")) | _declared(text)
+    return path, folder, _suffixed(text, names, number)
 
 
 def measured(model, constants, what, strict=False):
@@ -86,7 +123,7 @@ def measured(model, constants, what, strict=False):
     facts = {word: word == what for word in words}
     facts |= {"strict": strict, "sampled": what in ("sampled", "weighed")}
     return {
-        "vertex": _finish(_flatten("rigs/screen.vert", {}, {}, {})),
+        "vertex": finish(flatten("rigs/screen.vert", {}, {}, {})),
         "fragment": _watched("rigs/measure.frag", places, {}, facts),
     }
 
@@ -96,24 +133,18 @@ def screen(rig, constants):
     shader = read("rig", os.path.join(GLSL, "rigs", f"{rig}.frag"))
     places = {"RIG": [(shader.path, "rigs", _fixed(shader, constants))]}
     return {
-        "vertex": _finish(_flatten("rigs/screen.vert", {}, {}, {})),
-        "fragment": _finish(_flatten("RIG", places, {}, {})),
+        "vertex": finish(flatten("rigs/screen.vert", {}, {}, {})),
+        "fragment": finish(flatten("RIG", places, {}, {})),
     }
 
 
 def _watched(file, places, kinds, facts):
     """Return the Source of a rig, which looks out for loops cut short if it draws any."""
     strict = facts.get("strict", False)
-    source = _finish(_flatten(file, places, kinds, {**facts, "looping": False}), strict)
-    if not _loops(source):
+    source = finish(flatten(file, places, kinds, {**facts, "looping": False}), strict)
+    if not (loops(source) or places.get("LIT")):
         return source
-    return _finish(_flatten(file, places, kinds, {**facts, "looping": True}), strict)
-
-
-def _load(name):
-    """Return (path, folder, text) of a file below glsl/."""
-    path = os.path.join(GLSL, *name.split("/"))
-    return path, name.split("/")[0], read_text(path, SOURCE_LIMIT, "a GLSL file")
+    return finish(flatten(file, places, kinds, {**facts, "looping": True}), strict)
 
 
 def _fixed(shader, constants, suffix=""):
@@ -140,8 +171,17 @@ def _fixed(shader, constants, suffix=""):
 def _renamed(light, index, constants):
     """Return the text of light number `index`, all that it declares with `_index` appended."""
     text = _fixed(light, constants, f"_{index}")
+    return _suffixed(text, _declared(text), index)
+
+
+def _declared(text):
+    """Return the names that GLSL declares, functions, constants and macros."""
     bare = without_comments(text)
-    declared = {name for chunk in chunks(bare) for name in chunk.names} | set(_MACRO.findall(bare))
+    return {name for chunk in chunks(bare) for name in chunk.names} | set(_MACRO.findall(bare))
+
+
+def _suffixed(text, declared, index):
+    """Return GLSL in which the declared names have `_index` appended wherever they stand."""
     pattern = re.compile(rf"(?<![.\w])({'|'.join(sorted(declared))})\b")
     field = re.compile(pattern.pattern + r"(?!\s*[;,\[])")  # in a struct: types, not fields
     lines, in_struct = [], False
@@ -158,128 +198,3 @@ def _renamed(light, index, constants):
         in_struct = in_struct and "}" not in code
         lines.append(code + slashes + comment)
     return "\n".join(lines)
-
-
-def _flatten(start, places, repeats, facts):
-    """Return [(line, path, number)] of a file with all that it includes in place.
-
-    places maps a name to the [(path, folder, text)] that stand in for it.
-    """
-    out, seen = [], set()
-
-    def add(path, folder, text, chain):
-        bare = without_comments(text).split("\n")
-        for number, line in enumerate(text.split("\n"), 1):
-            name = included(bare[number - 1])
-            if name is not None:  # a name that holds `//` is whole in the raw line only
-                include(name or included(line), f"{path}:{number}: ", folder, chain)
-            elif folder == "rigs":
-                out.extend((kept, path, number) for kept in _marked(line, repeats, facts))
-            else:
-                out.append((line, path, number))
-
-    def include(name, where, folder, chain):
-        if not name:
-            raise Mistake(f'{where}write #include "lib/….glsl", the name in double quotes')
-        if folder == "rigs" and name in places:
-            for path, kind, text in places[name]:
-                add(path, kind, text, (*chain, path))
-            return
-        path = _resolve(name, where, folder)
-        if path in chain:
-            names = " -> ".join(os.path.basename(p) for p in (*chain, path))
-            raise Mistake(f"{where}the files include each other in a circle: {names}")
-        if len(chain) >= MAX_DEPTH or len(seen) >= MAX_FILES:
-            limits = f"{MAX_DEPTH} files deep, {MAX_FILES} in all"
-            raise Mistake(f"{where}too many files are included; allowed: {limits}")
-        if path not in seen:
-            seen.add(path)
-            add(*_load(name), (*chain, path))
-
-    include(start, "", "rigs", ())
-    return out
-
-
-def _resolve(name, where, folder):
-    """Return the path of an included file; refuse what leaves glsl/ or climbs its floors."""
-    root = os.path.realpath(GLSL)
-    path = os.path.realpath(os.path.join(root, *name.split("/")))
-    plain = not os.path.isabs(name) and not re.search(r"[\\:~]|\.\.", name)
-    if not plain or not path.startswith(root + os.sep):
-        raise Mistake(f'{where}"{name}" leaves glsl/; include a file of it, such as lib/lobe.glsl')
-    target = name.split("/")[0]
-    if target not in MAY_INCLUDE[folder]:
-        allowed = ", ".join(f"{f}/" for f in MAY_INCLUDE[folder])
-        raise Mistake(f'{where}a file of {folder}/ may not include "{name}"; allowed: {allowed}')
-    if not os.path.isfile(path):
-        from .errors import nearest
-
-        files = [f"{target}/{f}" for f in os.listdir(os.path.join(root, target))]
-        raise Mistake(f'{where}no file "{name}"; {nearest(name, files)}')
-    return path
-
-
-def _marked(line, repeats, facts):
-    """Return what a line of a rig becomes: itself, nothing, or one copy for every light."""
-    if "//" not in line:
-        return [line]
-    code, _, comment = line.rpartition("//")
-    mark, _, words = comment.strip().partition(" ")
-    if mark == "each" and words in repeats:
-        return [re.sub(rf"\b{words}\b", name, code.rstrip()) for name in repeats[words]]
-    terms = [term.split() for term in words.split(" and ")]
-    if mark != "where" or not all(term and term[-1] in facts for term in terms):
-        return [line]
-    holds = all(facts[term[-1]] == (term[0] != "not") for term in terms)
-    return [code.rstrip()] if holds else []
-
-
-def _finish(lines, strict=False):
-    """Return the Source of flattened lines: what main() reaches, if compilers can bear it."""
-    if strict:
-        rigs = os.path.join(GLSL, "rigs", "")
-        lines = [
-            (line if path.startswith(rigs) else _HIDING.sub(r"rig_\1", line), path, number)
-            for line, path, number in lines
-        ]
-    raw = [line for line, _, _ in lines]
-    bare = without_comments("\n".join(raw)).split("\n")
-    dropped = set()
-    for first, last, *_ in unreachable(chunks("\n".join(bare))):
-        while first and raw[first - 1].strip() and not bare[first - 1].strip():
-            first -= 1  # the comment right above goes with what it explains
-        dropped.update(range(first, last + 1))
-    _check_limits([(*lines[i][1:], bare[i]) for i in range(len(lines)) if i not in dropped])
-    out = [("#version 330 core", "", 0)]
-    for i, (line, path, number) in enumerate(lines):
-        if i not in dropped and (line.strip() or out[-1][0].strip()):
-            # moderngl takes "#include" for a command of its own, even inside a comment
-            out.append((line.replace("#include", "include"), path, number))
-    text = "\n".join(line for line, _, _ in out)
-    return Source(text + "\n", tuple((path, number) for _, path, number in out))
-
-
-def _loops(source):
-    """Return whether there is a loop that is not a rig's own."""
-    if not _LOOP.search(source.text):
-        return False
-    rigs = os.path.join(GLSL, "rigs", "")
-    lines = zip(without_comments(source.text).split("\n"), source.lines, strict=False)
-    return any(_LOOP.search(line) for line, (path, _) in lines if not path.startswith(rigs))
-
-
-def _check_limits(lines):
-    """Refuse (path, number, code) lines that are known to bring compilers down."""
-    uniforms = 0
-    for path, number, code in lines:
-        uniforms += "uniform" in code
-        if "[" in code:
-            sizes = (part.partition("]")[0].strip() for part in code.split("[")[1:])
-            big = next((n for n in sizes if n.isdecimal() and int(n) > MAX_ARRAY), None)
-            if big:
-                what = f"an array of {big}; allowed: up to {MAX_ARRAY} elements"
-                raise Mistake(f"{path}:{number}: {what}")
-        if uniforms > MAX_UNIFORMS:
-            raise Mistake(f"{path}:{number}: more than {MAX_UNIFORMS} uniforms; use fewer")
-    if sum(len(code) for _, _, code in lines) > SOURCE_LIMIT:
-        raise Mistake(f"{path}:{number}: over {SOURCE_LIMIT >> 10} kB of GLSL after all includes")

@@ -10,6 +10,9 @@ from .geometry import Geometry
 from .parameter import TINT
 from .parts import Object
 
+AT_ONCE = 1024  # directions to lights in one pass: a driver's limit on loops, and a pass's time
+HIDDEN = 128  # of them those to lights that cast shadows
+
 
 class Placed(NamedTuple):
     """An object in its place.
@@ -39,40 +42,54 @@ def arrange(scene, geometries):
         _sphere(one, mesh, world)
         for one, mesh, world in zip(scene.objects, geometries, worlds, strict=True)
     ]
-    centre, radius = camera.enclosing(spheres)
-    aspect = scene.size[0] / scene.size[1]
-    eye, target = camera.viewpoint(scene.camera, aspect, centre, radius)
-    if eye == target:
-        raise Mistake(f"the eye stands on its target, {target}; move camera.position or the target")
-    lens = camera.perspective(scene.camera.fov, aspect, *camera.clip_planes(eye, target, spheres))
-    view = camera.product(lens, camera.look_at(eye, target, scene.camera.up))
+    eye, target, near, far = _looks(scene, spheres)
+    lens = camera.perspective(scene.camera.fov, scene.size[0] / scene.size[1], near, far)
+    clip = camera.product(lens, camera.look_at(eye, target, scene.camera.up))
     placed = []
     for one, mesh, world, (middle, extent) in zip(
         scene.objects, geometries, worlds, spheres, strict=True
     ):
         closed = mesh.closed and math.dist(eye, middle) > extent  # not seen from within
-        placed.append(Placed(one, mesh, world, camera.product(view, world), eye, closed))
+        placed.append(Placed(one, mesh, world, camera.product(clip, world), eye, closed))
     return placed
 
 
 def constants(scene, placed):
     """Return {name: value} of what is compiled in for an object, as `compose.surface` takes it."""
-    fixed = placed.object.model.constants(placed.object.values)
-    for i, one in enumerate(scene.lights, 1):
-        fixed |= {f"{name}_{i}": v for name, v in one.kind.constants(one.values).items()}
-    return fixed
+    return placed.object.model.constants(placed.object.values) | of_lights(scene)
 
 
-def sources(scene, placed):
+def of_lights(scene):
+    """Return {name: value} of what is compiled in for the lights of a scene."""
+    return {
+        f"{name}_{i}": value
+        for i, one in enumerate(scene.lights, 1)
+        for name, value in one.kind.constants(one.values).items()
+    }
+
+
+def sources(scene, placed, shows="radiance"):
     """Return the composed GLSL {stage: Source} that draws an object in a scene."""
     kinds = [light.kind for light in scene.lights]
-    fixed = constants(scene, placed)
+    fixed, facts = constants(scene, placed), (not placed.closed, placed.transformed)
     return compose.surface(
-        placed.object.model, kinds, scene.shading, fixed, not placed.closed, placed.transformed
+        placed.object.model, kinds, scene.shading, fixed, *facts, shadows(scene), shows
     )
 
 
-def uniforms(scene, placed):
+def shadows(scene):
+    """Return the numbers, from 1, of the lights of a scene that cast shadows."""
+    return tuple(i for i, light in enumerate(scene.lights, 1) if light.shadows)
+
+
+def passes(scene):
+    """Return over how many passes the directions to the lights of a scene are spread."""
+    extended = [light for light in scene.lights if light.kind.sampled]
+    hidden = sum(light.samples for light in extended if light.shadows)
+    return max(1, -(-hidden // HIDDEN), -(-sum(light.samples for light in extended) // AT_ONCE))
+
+
+def uniforms(scene, placed, number=1):
     """Return {name: bytes} of what is set while running, as float32 and int32, for an object."""
     values = {
         "rig_clip": _columns(placed.clip, 4),
@@ -80,11 +97,78 @@ def uniforms(scene, placed):
         "rig_turn": _columns(camera.normal_matrix(placed.world), 3),
         "rig_lead": _columns(camera.linear_part(placed.world), 3),
         "rig_eye": struct.pack("3f", *placed.eye),
+        "rig_number": struct.pack("f", number),
         **packed(placed.object.model, placed.object.values, scene.time, ""),
     }
     for i, light in enumerate(scene.lights, 1):
-        values.update(packed(light.kind, light.values, scene.time, f"_{i}"))
+        values.update(of_light(light, scene.time, i))
     return values
+
+
+def of_light(light, time, number):
+    """Return {name: bytes} of what is set while running for light `number` of a scene."""
+    values = packed(light.kind, light.values, time, f"_{number}")
+    values[f"samples_{number}"] = struct.pack("i", light.samples)
+    if light.unit or light.temperature or light.illuminant:
+        from . import units
+
+        tinted = light.kind.tinted
+        rgb = units.tint(
+            light.kind.name,
+            tinted.unit,
+            light.values[tinted.name],
+            light.unit or tinted.unit,
+            light.values,
+            light.values[TINT],
+            light.temperature,
+            light.illuminant,
+        )
+        values[f"{tinted.name}_{number}"] = struct.pack("3f", *rgb)
+    given = _given(light)
+    plain = {f"{k}_{number}": v for k, v in given.items() if isinstance(v, bytes)}
+    return values | plain
+
+
+def tables(light, number):
+    """Return {name: surroundings.Texels} of the tables that light `number` looks up."""
+    given = _given(light)
+    return {f"{k}_{number}": v for k, v in given.items() if not isinstance(v, bytes)}
+
+
+def _given(light):
+    if not light.kind.given:
+        return {}
+    from . import surroundings
+
+    return surroundings.given(light)
+
+
+def view(scene, placed):
+    """Return {name: bytes} of how the eye looks into a scene, as rigs/backdrop.frag takes it."""
+    spheres = [_sphere(one.object, one.geometry, one.world) for one in placed]
+    aspect = scene.size[0] / scene.size[1]
+    eye, target, near, far = _looks(scene, spheres)
+    axes = camera.look_at(eye, target, scene.camera.up)
+    up = math.tan(math.radians(scene.camera.fov) / 2.0)
+    right, down, ahead = (
+        tuple(stretch * axes[4 * row + k] for k in range(3))
+        for row, stretch in ((0, up * aspect), (1, -up), (2, -1.0))
+    )
+    a, b = camera.perspective(scene.camera.fov, aspect, near, far)[10:12]
+    return {
+        "rig_eye": struct.pack("3f", *eye),
+        "rig_rays": struct.pack("9f", *right, *down, *ahead),
+        "rig_depth": struct.pack("2f", 0.5 - 0.5 * a, 0.5 * b),
+    }
+
+
+def _looks(scene, spheres):
+    """Return (eye, target, near, far) of the eye of a scene with such spheres in it."""
+    aspect = scene.size[0] / scene.size[1]
+    eye, target = camera.viewpoint(scene.camera, aspect, *camera.enclosing(spheres))
+    if eye == target:
+        raise Mistake(f"the eye stands on its target, {target}; move camera.position or the target")
+    return eye, target, *camera.clip_planes(eye, target, spheres)
 
 
 def _world(one, mesh):

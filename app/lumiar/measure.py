@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import catalog, compose, layout
-from .renderer import OnCard, compiled
+from .card import OnCard, compiled
 
 WIDTH = 1024  # pairs in a row of a texture
 CALM = 9  # runs whose median is a time

@@ -39,11 +39,22 @@ class Object(NamedTuple):
 
 
 class Light(NamedTuple):
-    """A light of some kind; values holds every parameter of the kind."""
+    """A light of some kind; values holds every parameter of the kind. See LIGHT for the others.
+
+    unit is that of its tinted value, "" for the one of its file; illuminant names a spectrum of
+    `spectrum.names`; image is the path of a .hdr, or the name of one that comes with Lumiar.
+    """
 
     kind: Shader
     values: dict
     name: str = ""
+    unit: str = ""
+    temperature: float | None = None
+    illuminant: str = ""
+    image: str = ""
+    samples: int = 16
+    shadows: bool = False
+    visible: bool = False
 
 
 class Panel(NamedTuple):
@@ -70,6 +81,10 @@ def _angle(name, default, low, high, text, kind="float"):
     return _numbers(name, kind, default, low, high, "degrees", text)
 
 
+def _toggle(name, text):
+    return Parameter(name, "bool", False, "toggle", text=text)
+
+
 def _choice(name, choices, default, text):
     return Parameter(name, "int", default, "choice", choices=choices, text=text)
 
@@ -84,6 +99,7 @@ SCENE = _table(
     _choice("shading", RATES, "phong", "evaluate the model per face, per vertex or per pixel"),
     _numbers("background", "vec3", (0.05, 0.05, 0.05), 0, 1, "W m^-2 sr^-1", "radiance", (0, 1)),
     _numbers("exposure", "float", 0.0, -20, 20, "EV", "factor 2^EV on the radiance"),
+    _numbers("ev100", "float", None, -20, 30, "EV", "a camera's exposure for these luminances"),
     _choice("tone", TONES, "none", "tone curve after the exposure"),
     _numbers("time", "float", 0.0, 0, 60, "s", "for models that change with it", (True, True)),
     _choice("lang", ("system", "en", "pt"), "system", "language of a sheet's captions"),
@@ -105,3 +121,10 @@ OBJECT = _table(
     _numbers("fit", "float", None, 1e-6, 1e6, "m", "radius to fit the mesh into"),
     _angle("crease", None, 0, 180, "edges sharper than this stay sharp"),
 )
+LIGHT = _table(
+    _numbers("temperature", "float", None, 500, 100000, "K", "colour of a black body"),
+    _numbers("samples", "int", 16, 1, 4096, "per point", "directions to a light with an extent"),
+    _toggle("shadows", "whether the objects of the scene hide it"),
+    _toggle("visible", "whether the eye sees the light itself"),
+)
+LIGHT_TEXTS = ("unit", "illuminant", "image")  # their domains follow from the kind of light

@@ -1,97 +1,29 @@
 """Owns the objects on the graphics card: Scene → linear radiance → displayed pixels."""
 
 import math
-import os
-from contextlib import suppress
+import struct
 from typing import NamedTuple
 
 import moderngl
 
-from . import camera, compose, geometry, layout
-from .errors import Mistake, one_line
+from . import camera, compose, layout
+from .card import OnCard, compiled
+from .errors import Mistake
+from .stock import Stock
 
 STRIP = 1 << 23  # samples drawn at a time: bounds the memory (180 MB) and the longest wait
-MESHES = 64  # kept on the graphics card
 COMMON = 8192  # pixels a side that every driver draws; asking it takes a millisecond
-INSTALL = "install a driver: on Debian or Ubuntu `apt install libegl1 libgl1-mesa-dri`"
 
 
 class _Job(NamedTuple):
-    """One object ready to draw: what to bind, how its faces wind, what to set."""
+    """Something ready to draw: what to bind, how and with which tests, what to set."""
 
     array: object
-    closed: bool
+    flags: int
     winding: str
     uniforms: tuple
-
-
-def open_context():
-    """Return a moderngl context without a window, OpenGL 3.3 or later; raise Mistake if none."""
-    with suppress(Exception):  # this is the fast way; moderngl's own tries more of them
-        from glcontext import egl
-
-        names = {"libgl": "libGL.so.1", "libegl": "libEGL.so.1"}
-        raw = egl.create_context(mode="standalone", glversion=330, **names)
-        return moderngl.create_context(context=raw, require=330)
-    try:
-        return moderngl.create_context(standalone=True, require=330)
-    except Exception as error:  # moderngl raises nothing more specific
-        reason = one_line(error, 120)
-        raise Mistake(f"needs OpenGL 3.3, but none could be opened ({reason}); {INSTALL}") from None
-
-
-def compiled(context, sources):
-    """Return the program of sources {stage: Source}; raise Mistake naming file:line."""
-    texts = {f"{stage}_shader": source.text for stage, source in sources.items()}
-    try:
-        return context.program(**texts)
-    except moderngl.Error as error:
-        from . import driverlog
-
-        path, line, message = driverlog.locate(str(error), sources)
-        where = f"{path}:{line}: " if path else ""
-        raise Mistake(f"{where}the driver does not compile this: {message}") from None
-
-
-class OnCard:
-    """What holds objects in one OpenGL context, its own unless one is given."""
-
-    def __init__(self, context=None):
-        self.context = context or open_context()
-        self._owns_context = context is None
-        self._idle = None
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.release()
-
-    def release(self):
-        """Free everything on the graphics card; the second time does nothing."""
-        if self.context is None:
-            return
-        with self.context:
-            self._free()
-            if self._idle:
-                (attachment,) = self._idle.color_attachments
-                attachment.release()
-                self._idle.release()
-        if self._owns_context:
-            self.context.release()
-        self.context = None
-
-    def _free(self):
-        """Free what the class itself has made, in the context."""
-
-    def _free_framebuffer(self, framebuffer):
-        """Free a framebuffer and what is attached to it; one that goes while bound is an error."""
-        self._idle = self._idle or self.context.framebuffer([self.context.renderbuffer((1, 1))])
-        self._idle.use()
-        for attachment in (*framebuffer.color_attachments, framebuffer.depth_attachment):
-            if attachment:
-                attachment.release()
-        framebuffer.release()
+    textures: tuple
+    vertices: int = -1  # all
 
 
 class Renderer(OnCard):
@@ -99,13 +31,14 @@ class Renderer(OnCard):
 
     def __init__(self, context=None):
         super().__init__(context)
-        self._programs, self._meshes, self._arrays, self._targets = {}, {}, {}, {}
+        self._programs, self._screens, self._targets = {}, {}, {}
+        self._stock = Stock(self.context)
         self._watches_loops = False
-        self._drawn = (None, [])  # the last scene and its jobs: most frames draw it again
+        self._drawn = (None, "", [])  # the last scene and its jobs: most frames draw it again
 
     def _free(self):
-        buffers = [b for _, *three in self._meshes.values() for b in three if b]
-        for made in (*self._arrays.values(), *self._programs.values(), *buffers):
+        self._stock.release()
+        for made in (*self._screens.values(), *self._programs.values()):
             made.release()
         self._release_targets()
 
@@ -121,45 +54,92 @@ class Renderer(OnCard):
         """Whether what was drawn has loops, and this driver is known to cut long ones short."""
         return self._watches_loops and "llvmpipe" in self.name
 
-    def strips(self, scene, linear=False):
+    def strips(self, scene, linear=False, shows="radiance"):
         """Yield the picture of a scene as strips of rows, top first: (bytes, broken pixels).
 
         The bytes are sRGB, 3 per pixel, or, if linear, radiance, 3 float32 per pixel. broken counts
-        the pixels whose radiance is NaN or infinite; sRGB shows them in magenta. Raises Mistake for
-        a size the driver cannot draw, and for errors in shaders and meshes.
+        the pixels whose radiance is NaN or infinite; sRGB shows them in magenta. shows is one of
+        compose.SHOWS, in the middle of each pixel, 0 where no object is. Raises Mistake for a size
+        the driver cannot draw, and for errors in shaders and meshes.
         """
+        if shows != "radiance":
+            scene, linear = scene._replace(samples=1), True
         width, height = scene.size
         side = math.isqrt(scene.samples)
         self._check_size(width, height, side)
         rows = max(1, min(height, STRIP // (width * side * side)))
         for top in range(0, height, rows):
             with self.context:  # another renderer's may be the current one
-                strip = self._strip(scene, linear, side, rows, top)
+                strip = self._strip(scene, linear, side, rows, top, shows)
             yield strip
 
-    def _strip(self, scene, linear, side, rows, top):
+    def pixel(self, scene, x, y, shows="radiance"):
+        """Return what is in the middle of a pixel, 3 floats, or None where no object is.
+
+        x, y count from the top left pixel, which is 0, 0; see `strips` for shows.
+        """
+        width, height = scene.size
+        scene = scene._replace(samples=1)
+        self._check_size(width, height, 1)
+        with self.context:
+            radiance, _ = self._target(1, 1, 1, True)
+            radiance.viewport = (-int(x), -int(y), width, height)
+            held = self._accumulated(scene, radiance, (int(x), int(y)), shows)
+            *values, surface = struct.unpack("4f", held.read(components=4, dtype="f4"))
+        return tuple(values) if surface else None
+
+    def _strip(self, scene, linear, side, rows, top, shows):
         width, height = scene.size
         count = min(rows, height - top)
         radiance, picture = self._target(width, rows, side, linear)
         radiance.viewport = (0, -top * side, width * side, height * side)
-        self.draw(scene, radiance)
-        self.present(scene, radiance, picture, linear)
+        held = self._accumulated(scene, radiance, (0, top * side), shows)
+        self.present(scene, held, picture, linear)
         area, dtype, step = (0, 0, width, count), *(("f4", 16) if linear else ("f1", 4))
         finite = picture.read(area, 4, dtype=dtype)[step - 1 :: step]  # the top byte of alpha
         return picture.read(area, 3, dtype=dtype), finite.count(b"\0")
 
-    def draw(self, scene, framebuffer):
-        """Draw the linear radiance of a scene into a framebuffer with a depth buffer."""
-        jobs = self._jobs(scene)
+    def _accumulated(self, scene, radiance, shift, shows):
+        """Draw a scene in as many passes as it needs; return the framebuffer with their mean."""
+        count = layout.passes(scene) if shows == "radiance" else 1
+        if count == 1:
+            self.draw(scene, radiance, shift=shift, shows=shows)
+            return radiance
+        total = self._sum(radiance.size)
+        total.use()
+        total.clear()
+        array = self._screen("add", {})
+        for number in range(count):
+            self.draw(scene, radiance, (number, count), shift)
+            array.program["rig_share"].value = 1.0 / count
+            radiance.color_attachments[0].use(0)
+            total.use()
+            self.context.enable_only(moderngl.BLEND)
+            self.context.blend_func = moderngl.ONE, moderngl.ONE
+            array.render(moderngl.TRIANGLES, vertices=3)
+        return total
+
+    def draw(self, scene, framebuffer, part=(0, 1), shift=(0, 0), shows="radiance"):
+        """Draw the linear radiance of a scene into a framebuffer with a depth buffer.
+
+        part is which of how many passes this is; shift says where in the picture the framebuffer
+        begins, in samples.
+        """
+        jobs = self._jobs(scene, shows)
         framebuffer.use()
-        framebuffer.clear(*scene.background, 0.0)
+        framebuffer.clear(*(scene.background if shows == "radiance" else (0.0,) * 3), 0.0)
+        running = {"rig_pass": part, "rig_shift": shift}
         for job in jobs:
             for member, value in job.uniforms:
                 member.write(value)
-            culling = moderngl.CULL_FACE if job.closed else moderngl.NOTHING
-            self.context.enable_only(moderngl.DEPTH_TEST | culling)
+            for name, value in running.items():
+                if name in job.array.program:
+                    job.array.program[name].value = value
+            for unit, texture in job.textures:
+                texture.use(unit)
+            self.context.enable_only(job.flags)
             self.context.front_face = job.winding
-            job.array.render()
+            job.array.render(vertices=job.vertices)
 
     def present(self, scene, radiance, picture, linear=False):
         """Turn drawn radiance into pixels: mean of the samples, exposure, tone curve, sRGB."""
@@ -167,87 +147,75 @@ class Renderer(OnCard):
             "side": math.isqrt(scene.samples),
             "target": "linear" if linear else "display",
             "tone": scene.tone,
-            "exposed": scene.exposure != 0.0 and not linear,
+            "exposed": scene.gain != 1.0 and not linear,
         }
         array = self._screen("present", constants)
         if "rig_exposure" in array.program:
-            array.program["rig_exposure"].value = 2.0**scene.exposure
+            array.program["rig_exposure"].value = scene.gain
         radiance.color_attachments[0].use(0)
         picture.use()
         self.context.enable_only(moderngl.NOTHING)
         array.render(moderngl.TRIANGLES, vertices=3)
 
-    def _jobs(self, scene):
-        """Return what it takes to draw each object of a scene."""
-        if self._drawn[0] is not scene:
-            if len(self._meshes) > MESHES:
-                self._forget_meshes()
-            entries = [self._mesh(one) for one in scene.objects]
+    def _jobs(self, scene, shows):
+        """Return what it takes to draw a scene: its visible lights, then each object."""
+        if self._drawn[0] is not scene or self._drawn[1] != shows:
+            self._stock.make_room()
+            entries = [self._stock.mesh(one) for one in scene.objects]
             placed = layout.arrange(scene, [entry[0] for entry in entries])
-            jobs = [self._job(scene, *pair) for pair in zip(placed, entries, strict=True)]
-            self._drawn = (scene, jobs)
-        return self._drawn[1]
+            textures = self._stock.tables(scene, placed)
+            jobs = self._backdrops(scene, placed, textures) if shows == "radiance" else []
+            for number, pair in enumerate(zip(placed, entries, strict=True), 1):
+                jobs.append(self._job(scene, *pair, number, textures, shows))
+            self._drawn = (scene, shows, jobs)
+        return self._drawn[2]
 
-    def _job(self, scene, placed, entry):
-        program = self._program(scene, placed)
-        values = layout.uniforms(scene, placed)
-        members = ((program.get(name, None), value) for name, value in values.items())
-        uniforms = tuple((member, value) for member, value in members if member is not None)
+    def _job(self, scene, placed, entry, number, textures, shows):
+        program = self._program(scene, placed, shows)
+        values = layout.uniforms(scene, placed, number)
         winding = "ccw" if camera.mirrors(placed.world) else "cw"  # y points down in clip space
-        return _Job(self._array(program, entry), placed.closed, winding, uniforms)
+        culling = moderngl.CULL_FACE if placed.closed else moderngl.NOTHING
+        flags, array = moderngl.DEPTH_TEST | culling, self._stock.array(program, entry)
+        return _Job(array, flags, winding, *_bound(program, values, textures))
 
-    def _program(self, scene, placed):
+    def _backdrops(self, scene, placed, textures):
+        """Return what it takes to draw the visible lights: first what surrounds, then shapes."""
+        jobs, fixed = [], layout.of_lights(scene)
+        for number, light in enumerate(scene.lights, 1):
+            if not light.visible:
+                continue
+            key = ("backdrop", number, light.kind.text, *fixed.items())
+            if key not in self._programs:
+                sources = compose.backdrop(light.kind, number, fixed)
+                self._programs[key] = self._compile(sources)
+                self._screens[key] = self.context.vertex_array(self._programs[key], [])
+            values = layout.view(scene, placed) | layout.of_light(light, scene.time, number)
+            around = "environment" in light.kind.defines
+            flags = moderngl.NOTHING if around else moderngl.DEPTH_TEST
+            bound = _bound(self._programs[key], values, textures)
+            job = _Job(self._screens[key], flags, "ccw", *bound, 3)
+            jobs.insert(0 if around else len(jobs), job)
+        return jobs
+
+    def _program(self, scene, placed, shows):
         """Return the program for an object of a scene, compiled once."""
         texts = (placed.object.model.text, *(light.kind.text for light in scene.lights))
-        facts = (scene.shading, placed.closed, placed.transformed)
+        facts = (scene.shading, placed.closed, placed.transformed, shows, layout.shadows(scene))
         key = (*facts, *texts, *layout.constants(scene, placed).items())
         if key not in self._programs:
-            self._programs[key] = self._compile(layout.sources(scene, placed))
+            self._programs[key] = self._compile(layout.sources(scene, placed, shows))
         return self._programs[key]
 
     def _screen(self, rig, constants):
         key = (rig, *constants.items())
         if key not in self._programs:
             self._programs[key] = self._compile(compose.screen(rig, constants))
-            self._arrays[key] = self.context.vertex_array(self._programs[key], [])
-        return self._arrays[key]
+            self._screens[key] = self.context.vertex_array(self._programs[key], [])
+        return self._screens[key]
 
     def _compile(self, sources):
         self._watches_loops |= any("rig_cut_short" in one.text for one in sources.values())
         return compiled(self.context, sources)
-
-    def _mesh(self, one):
-        """Return (Geometry, vertex, tangent and index buffer) of an object's mesh."""
-        tangents = "tangent" in one.model.needs
-        key = (one.mesh, one.crease, tangents, _state(one.mesh))
-        if key not in self._meshes:
-            mesh = geometry.load(one.mesh, crease=one.crease, tangents=tangents)
-            buffers = (mesh.vertices, mesh.tangents, mesh.indices)
-            made = (self.context.buffer(b) if len(b) else None for b in buffers)
-            self._meshes[key] = (mesh, *made)
-        return self._meshes[key]
-
-    def _forget_meshes(self):
-        """Make room on the graphics card: a slider may have named hundreds of shapes."""
-        buffers = {b for _, *three in self._meshes.values() for b in three if b}
-        for key in [key for key in self._arrays if key[-1] in buffers]:
-            self._arrays.pop(key).release()
-        for buffer in buffers:
-            buffer.release()
-        self._meshes.clear()
-        self._drawn = (None, [])  # its arrays are gone, too
-
-    def _array(self, program, entry):
-        """Return the vertex array that feeds a mesh to a program, without what it does not take."""
-        key = (program, entry[1])
-        if key not in self._arrays:
-            names = ("rig_vertex", "rig_vertex_normal")
-            form = " ".join("3f" if name in program else "12x" for name in names)
-            content = [(entry[1], form, *(name for name in names if name in program))]
-            if "rig_vertex_tangent" in program:
-                content.append((entry[2], "4f", "rig_vertex_tangent"))
-            self._arrays[key] = self.context.vertex_array(program, content, entry[3])
-        return self._arrays[key]
 
     def _target(self, width, rows, side, linear):
         """Return framebuffers (radiance, picture) for strips of a picture, kept while they fit."""
@@ -263,6 +231,14 @@ class Renderer(OnCard):
                 raise Mistake(f"the driver has no memory for {width} x {rows} pixels; draw smaller")
             self._targets[key] = (radiance, picture)
         return self._targets[key]
+
+    def _sum(self, size):
+        """Return a framebuffer in which passes of that size are added up."""
+        if size not in self._targets:
+            self._targets[size] = (
+                self.context.framebuffer([self.context.texture(size, 4, dtype="f4")]),
+            )
+        return self._targets[size][0]
 
     def _release_targets(self):
         for framebuffer in (f for pair in self._targets.values() for f in pair):
@@ -282,10 +258,11 @@ class Renderer(OnCard):
             )
 
 
-def _state(path):
-    """Return what changes when the mesh file at a path does; None for a built-in shape."""
-    if not os.path.isabs(path):
-        return None
-    with suppress(OSError):  # loading it will tell
-        status = os.stat(path)
-        return status.st_size, status.st_mtime_ns
+def _bound(program, values, textures):
+    """Return ((member, bytes), ...), ((unit, texture), ...): of all that is given what it takes."""
+    members = ((program.get(name, None), value) for name, value in values.items())
+    looked_up = [(name, texture) for name, texture in textures.items() if name in program]
+    for unit, (name, _) in enumerate(looked_up):
+        program[name].value = unit
+    units = tuple((unit, texture) for unit, (_, texture) in enumerate(looked_up))
+    return tuple((member, value) for member, value in members if member is not None), units

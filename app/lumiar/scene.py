@@ -25,12 +25,22 @@ class Scene(NamedTuple):
     shading: str = "phong"
     background: tuple[float, float, float] = (0.05, 0.05, 0.05)
     exposure: float = 0.0
+    ev100: float | None = None
     tone: str = "none"
     time: float = 0.0
     title: dict = {}  # noqa: RUF012  never changed in place
     lang: str = "system"
     columns: int = 0
     panels: tuple[Panel, ...] = ()
+
+    @property
+    def gain(self):
+        """The factor on the radiance before the tone curve."""
+        if self.ev100 is None:
+            return 2.0**self.exposure
+        from . import units
+
+        return 2.0**self.exposure * units.exposure(self.ev100)
 
     @staticmethod
     def default():

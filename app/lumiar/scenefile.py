@@ -5,12 +5,12 @@ from functools import partial
 from typing import NamedTuple
 
 from . import catalog, geometry, settings, tomltext
+from .content import LIMIT, confine, digest, inside
 from .errors import Mistake, nearest
-from .files import ASSETS, read_bytes
-from .parts import CAMERA, OBJECT, SCENE, Camera, Light, Object, Panel
+from .files import ASSETS
+from .parts import CAMERA, LIGHT, LIGHT_TEXTS, OBJECT, SCENE, Camera, Light, Object, Panel
 from .tomltext import Place
 
-LIMIT = 1 << 20  # bytes of a scene file
 SECTIONS = {"camera": 1, "object": 256, "light": 64, "panel": 256, "content": 1024}  # at most
 LANGUAGES = ("en", "pt")
 _KEYWORD = b"lumiar"  # of the PNG text chunk that holds the scene
@@ -90,17 +90,21 @@ def dump(scene, folder):
     def written(name, kind):
         if not os.path.isabs(name):
             return name
-        if _inside(name, folder):
+        if inside(name, folder):
             return os.path.relpath(os.path.realpath(name), os.path.realpath(folder))
-        content[name] = _digest(name, kind)
+        content[name] = digest(name, kind)
         return name
 
     def setting(key, value):
         kind = key.rpartition(".")[2]
         if kind == "light":  # as text, its parameters behind colons
             name, *rest = settings.light_parts(str(value))
+            rest = (
+                f"image={written(part[6:], 'image')}" if part.startswith("image=") else part
+                for part in rest
+            )
             return ":".join([written(name, kind), *rest])
-        return written(value, kind) if kind in ("mesh", "model") else value
+        return written(value, kind) if kind in ("mesh", "model", "image") else value
 
     data = {key: getattr(scene, key) for key in SCENE}
     data["title"] = scene.title
@@ -116,7 +120,12 @@ def dump(scene, folder):
         for one in scene.objects
     ]
     data["light"] = [
-        {"name": one.name, "kind": written(one.kind.name, "light"), **one.values}
+        {
+            "name": one.name,
+            "kind": written(one.kind.name, "light"),
+            **one.values,
+            **_own(one, lambda name: written(name, "image")),
+        }
         for one in scene.lights
     ]
     data["panel"] = [
@@ -187,8 +196,8 @@ def _camera(file, data):
 def _object(file, index, data):
     where = partial(file.at, section="object", index=index)
     names = _names(data, {"name": "", "mesh": "sphere", "model": "phong", "material": ""}, where)
-    _confine(file, names["mesh"], "mesh", where("mesh"))
-    _confine(file, names["model"], "model", where("model"))
+    confine(names["mesh"], "mesh", file.folder, file.content, where("mesh"))
+    confine(names["model"], "model", file.folder, file.content, where("model"))
     mesh = geometry.canonical(names["mesh"], file.folder, where("mesh"))
     model = catalog.read("model", names["model"], where("model"), file.folder)
     one = Object(model, model.defaults(), mesh, names["name"])
@@ -218,11 +227,30 @@ def _given(shader, key, value, where):
 def _light(file, index, data):
     where = partial(file.at, section="light", index=index)
     names = _names(data, {"name": "", "kind": "directional"}, where)
-    _confine(file, names["kind"], "light", where("kind"))
+    confine(names["kind"], "light", file.folder, file.content, where("kind"))
     kind = catalog.read("light", names["kind"], where("kind"), file.folder)
     _check_keys(data, [*catalog.OWN_KEYS["light"], *kind.defaults()], where)
-    given = {k: _given(kind, k, v, where(k)) for k, v in data.items() if k not in names}
-    return Light(kind, {**kind.defaults(), **given}, names["name"])
+    if "temperature" in data and "illuminant" in data:
+        raise Mistake(f"{where('illuminant')}a temperature and an illuminant; leave one out")
+    one = Light(kind, kind.defaults(), names["name"])
+    for key, value in data.items():
+        if key == "image":
+            confine(str(value), key, file.folder, file.content, where(key))
+        tinted = kind.tinted and key == kind.tinted.name and isinstance(value, str)  # "800 lm"
+        if key in (*LIGHT, *LIGHT_TEXTS) or tinted:
+            one = settings.light_with(one, key, value, where(key), file.folder)
+        elif key not in names:
+            one = one._replace(values={**one.values, key: _given(kind, key, value, where(key))})
+    own = next((key for key in data if key in (*LIGHT_TEXTS, *LIGHT)), "kind")
+    return settings.checked(one, where(own))
+
+
+def _own(one, written):
+    """Return {key: value} of those keys of a Light that say something; written shortens paths."""
+    fresh = Light(one.kind, {})
+    own = {key: getattr(one, key) for key in (*LIGHT_TEXTS, *LIGHT)}
+    own["image"] = one.image and written(one.image)
+    return {key: value for key, value in own.items() if value != getattr(fresh, key)}
 
 
 def _panel(file, index, data, scene):
@@ -230,16 +258,18 @@ def _panel(file, index, data, scene):
     _check_keys(data, ["caption", "scene", "set"], where)
     other = _names(data, {"scene": ""}, where)["scene"]
     if other and other not in shipped():
-        _confine(file, other, "scene", where("scene"))
+        confine(other, "scene", file.folder, file.content, where("scene"))
         other = os.path.join(file.folder, other)
     values, given = [], data.get("set", {})
     if not isinstance(given, dict):
         raise Mistake(f"{where('set')}set = {given!r}; write set = {{ key = value, … }}")
     for key, value in given.items():
         kind = key.rpartition(".")[2]
-        if kind in ("mesh", "model", "light"):
-            name = settings.light_parts(str(value))[0] if kind == "light" else str(value)
-            _confine(file, name, kind, where("set"))
+        name, *rest = settings.light_parts(str(value)) if kind == "light" else [str(value)]
+        named = [(name, kind)] if kind in ("mesh", "model", "light", "image") else []
+        named += [(part[6:], "image") for part in rest if part.startswith("image=")]
+        for path, what in named:
+            confine(path, what, file.folder, file.content, where("set"))
         value = tuple(value) if isinstance(value, list) else value
         value = settings.canonical(key, value, where("set"), file.folder)
         scene = settings.changed(scene, key, value, where("set"))
@@ -254,31 +284,3 @@ def _names(data, defaults, where):
         if not isinstance(data.get(key, ""), str):
             raise Mistake(f'{where(key)}{key} = {data[key]!r}; write text in quotes: "…"')
     return {key: data.get(key, fallback) for key, fallback in defaults.items()}
-
-
-def _confine(file, name, kind, where):
-    """Refuse a path outside the folder of the scene, unless the scene knows what is in it."""
-    ending = {"mesh": geometry.FORMATS, "scene": ("",)}.get(kind, (".glsl",))
-    if not name.lower().endswith(ending):
-        return  # no path: the name of something that comes with Lumiar, or a mistake told later
-    path = os.path.abspath(os.path.join(file.folder, os.path.expanduser(name)))
-    if _inside(path, file.folder):
-        return
-    advice = f"put it beside the scene, or name it on the command line with --{kind}"
-    if name not in file.content:
-        raise Mistake(f"{where}{name} lies outside the folder of the scene; {advice}")
-    if file.content[name] != _digest(path, kind):
-        raise Mistake(f"{where}{name} is no longer what this scene was made with; {advice}")
-
-
-def _inside(path, folder):
-    return os.path.realpath(path).startswith(os.path.join(os.path.realpath(folder), ""))
-
-
-def _digest(path, kind):
-    """Return the SHA-256, in hexadecimal, of what a file and the buffers it names hold."""
-    import hashlib
-
-    limit = geometry.FILE_LIMIT if kind == "mesh" else LIMIT
-    data = read_bytes(path, limit, f"a {kind}")
-    return hashlib.sha256(b"".join(geometry.file_parts(path, data))).hexdigest()

@@ -4,7 +4,7 @@ import math
 
 from . import catalog, geometry
 from .errors import Mistake, nearest
-from .parts import CAMERA, OBJECT, SCENE, Light
+from .parts import CAMERA, LIGHT, LIGHT_TEXTS, OBJECT, SCENE, Light
 
 
 def changed(scene, key, value, where="", folder=""):
@@ -31,14 +31,14 @@ def changed(scene, key, value, where="", folder=""):
         return scene._replace(lights=(light(str(value), where, folder),))
     objects, lights, rest = _addressed(scene, key)
     in_objects = [i for i in objects if _takes(scene.objects[i], rest)]
-    in_lights = [i for i in lights if rest in scene.lights[i].values and not in_objects]
+    in_lights = [i for i in lights if _lights_up(scene.lights[i], rest) and not in_objects]
     if not in_objects and not in_lights:
         raise Mistake(f"{where}no value '{key}'; {nearest(key, keys(scene))}")
     changed_objects, changed_lights = list(scene.objects), list(scene.lights)
     for i in in_objects:
         changed_objects[i] = _object_with(scene.objects[i], rest, value, where, folder)
     for i in in_lights:
-        changed_lights[i] = _light_with(scene.lights[i], rest, value, where)
+        changed_lights[i] = checked(light_with(scene.lights[i], rest, value, where, folder), where)
     return scene._replace(objects=tuple(changed_objects), lights=tuple(changed_lights))
 
 
@@ -56,7 +56,7 @@ def all_changed(scene, pairs, where="", folder=""):
 def keys(scene):
     """Return every key that `changed` takes for this scene, without those behind numbers."""
     names = [*SCENE, *(f"camera.{name}" for name in CAMERA), "model", "material", "mesh"]
-    names += ["light", *OBJECT]
+    names += ["light", *OBJECT, *LIGHT, *LIGHT_TEXTS] if scene.lights else ["light", *OBJECT]
     for one in (*scene.objects, *scene.lights):
         names += one.values
         names += (f"{one.name}.{value}" for value in one.values if one.name)
@@ -72,7 +72,17 @@ def canonical(key, value, where="", folder=""):
         return catalog.read("model", str(value), where, folder).name
     if key == "light":
         name, *rest = light_parts(str(value))
+        rest = (
+            f"image={canonical('image', part[6:], where, folder)}"
+            if part.startswith("image=")
+            else part
+            for part in rest
+        )
         return ":".join([catalog.read("light", name, where, folder).name, *rest])
+    if kind == "image":
+        from . import surroundings
+
+        return surroundings.canonical(str(value), folder, where)
     return value
 
 
@@ -99,7 +109,68 @@ def light(spec, where="", folder=""):
     one = Light(kind, kind.defaults())
     for setting in values:
         key, _, value = setting.partition("=")
-        one = _light_with(one, key, value, where)
+        one = light_with(one, key, value, where, folder)
+    return checked(one, where)
+
+
+def light_with(one, key, value, where="", folder=""):
+    """Return a Light with one value changed; `checked` tells whether it all goes together.
+
+    What is tinted takes a unit along: "800 lm". Of temperature and illuminant the last one holds.
+    """
+    if key in LIGHT:
+        value = LIGHT[key].check(_typed(LIGHT[key], value, where), where)
+        spectrum = {"illuminant": ""} if key == "temperature" else {}
+        return one._replace(**{key: value}, **spectrum)
+    if key in LIGHT_TEXTS:
+        if not isinstance(value, str):
+            raise Mistake(f'{where}{key} = {value!r}; write text in quotes: "…"')
+        value = canonical(key, value, where, folder) if key == "image" else value
+        spectrum = {"temperature": None} if key == "illuminant" else {}
+        return one._replace(**{key: value.strip()}, **spectrum)
+    parameter = one.kind.parameter(key, where)
+    if parameter.tinted and isinstance(value, str) and value.strip()[-1:].isalpha():
+        from . import units
+
+        value, unit = units.split(value, where)
+        one = one._replace(unit=unit)
+    value = parameter.check(_typed(parameter, value, where), where)
+    return one._replace(values={**one.values, key: value})
+
+
+def checked(one, where=""):
+    """Return a Light whose own keys suit its kind, its unit as Lumiar spells it."""
+    kind, tinted = one.kind, one.kind.tinted
+    suits = {
+        "unit": tinted,
+        "temperature": tinted,
+        "illuminant": tinted,
+        "image": "image" in kind.given,
+        "samples": kind.sampled,
+        "shadows": "light" in kind.defines,
+        "visible": {"environment", "arriving"} & kind.defines,
+    }
+    fresh = Light(kind, {})
+    for key, good in suits.items():
+        if not good and getattr(one, key) != getattr(fresh, key):
+            raise Mistake(f"{where}a light of the kind {kind.name} has no {key}; leave it out")
+    if one.unit:
+        from . import units
+
+        unit = units.unit(one.unit, where)
+        allowed = units.allowed(tinted.unit, kind.name)
+        if unit not in allowed:
+            raise Mistake(
+                f"{where}{tinted.name} of {kind.name} in {unit}; allowed: {', '.join(allowed)}"
+            )
+        one = one._replace(unit=unit)
+    if one.illuminant:
+        from . import spectrum
+
+        names = spectrum.names()
+        if one.illuminant not in names:
+            why = nearest(one.illuminant, names)
+            raise Mistake(f"{where}no illuminant '{one.illuminant}'; {why}")
     return one
 
 
@@ -123,6 +194,10 @@ def _addressed(scene, key):
     named = [i for i in objects if scene.objects[i].name == first]
     lamps = [i for i in lights if first in (scene.lights[i].name, scene.lights[i].kind.name)]
     return named, lamps, rest
+
+
+def _lights_up(one, key):
+    return key in one.values or key in LIGHT or key in LIGHT_TEXTS
 
 
 def _takes(one, key):
@@ -156,12 +231,6 @@ def _with_model(one, model):
             except Mistake:
                 continue  # the other model's domain does not hold it: its own default stays
     return one._replace(model=model, values=values)
-
-
-def _light_with(one, key, value, where):
-    parameter = one.kind.parameter(key, where)
-    value = parameter.check(_typed(parameter, value, where), where)
-    return one._replace(values={**one.values, key: value})
 
 
 def _typed(parameter, value, where):

@@ -19,6 +19,8 @@ void main() {
     float facing = dot(N, rig_eye - position);
     if (facing <= 0.0) return;  // where not two_sided
     N = normalize(facing < 0.0 ? -N : N);
+    rig_seed = rig_hash(uint(gl_PrimitiveIDIn));  // where sampled
+    rig_ground = N;  // where shadowed
     vec3 radiance = rig_radiance(position, Frame(N));  // where not tangent
     vec4 tangent = rig_along(rig_corner_tangent[0]);  // where tangent
     vec3 radiance = rig_radiance(position, tangent_frame(N, tangent));  // where tangent
