@@ -165,6 +165,20 @@ def _measure(parser):
     _timeout(parser)
 
 
+def _formfactor(parser):
+    text = "a point, 0,0,0, or a polygon's corners, '0,0,0 1,0,0 1,1,0'"
+    parser.add_argument("--from", dest="here", required=True, metavar="X,Y,Z…", help=text)
+    text = "of the patch at the point (default: 0,0,1)"
+    parser.add_argument("--normal", metavar="X,Y,Z", help=text)
+    text = "the polygon's corners, in order, in m"
+    parser.add_argument("--to", dest="there", required=True, metavar="X,Y,Z…", help=text)
+    text = "of Monte Carlo (default: 1000000)"
+    parser.add_argument("--samples", type=_count, default=10**6, metavar="N", help=text)
+    parser.add_argument("--seed", type=_seed, default=0, metavar="N", help="of it (default: 0)")
+    parser.add_argument("--json", action="store_true", help="for programs")
+    _timeout(parser)
+
+
 def _audit(parser):
     text = "name, .glsl file or folder of them (default: all that come with Lumiar)"
     parser.add_argument("models", nargs="*", metavar="MODEL", help=text)
@@ -182,6 +196,12 @@ def _seed(text):
     if text.isdecimal() and text.isascii() and len(text) <= 18:
         return int(text)
     raise argparse.ArgumentTypeError(f"'{text}' is not a whole number, 0 or more")
+
+
+def _count(text):
+    if text.isdecimal() and text.isascii() and len(text) < 9 and 1 < int(text) <= 10**7:
+        return int(text)
+    raise argparse.ArgumentTypeError(f"'{text}' is not a whole number, 2 to 10000000")
 
 
 def _angles(text):
@@ -212,5 +232,6 @@ _VERBS = {
     "compare": ("Measure how picture B differs from A; exit 1 beyond a limit.", _compare),
     "audit": ("Test what models claim, and how exact and fast they are; exit 1 if broken.", _audit),
     "measure": ("Measure models at any angles, as a gonioreflectometer would.", _measure),
+    "formfactor": ("Tell solid angles and form factors from a patch or a polygon.", _formfactor),
     "list": ("List what there is to choose from.", _list),
 }

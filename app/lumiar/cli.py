@@ -3,7 +3,7 @@
 import os
 import sys
 
-VERBS = ("capture", "info", "source", "compare", "measure", "audit", "list")
+VERBS = ("capture", "info", "source", "compare", "measure", "formfactor", "audit", "list")
 HELP = """usage: lumiar VERB … (lumiar VERB --help tells more)
 
   capture [SCENE]  draw a scene to a picture: .png, or .hdr and .npy for linear radiance
@@ -11,6 +11,7 @@ HELP = """usage: lumiar VERB … (lumiar VERB --help tells more)
   source [SCENE]   the GLSL of a scene, exactly as compiled
   compare A B      how two pictures differ; exit code 1 beyond a limit you give
   measure MODEL …  scatter, lobes and albedo of models at any angles: .csv, .npz or a picture
+  formfactor       solid angles and form factors of polygons: exact, by Nusselt, by Monte Carlo
   audit [MODEL …]  the data sheet: claims tested, hard cases, float32 error, cost; 1 if broken
   list             the models, lights, meshes, materials and scenes there are
 
@@ -77,7 +78,7 @@ def _dispatch(argv):
         raise Mistake(f"no verb '{argv[0]}'; {nearest(argv[0], VERBS)}")
     from . import arguments
 
-    if argv[0] in ("measure", "audit"):
+    if argv[0] in ("measure", "formfactor", "audit"):
         from . import lab as verbs
     else:
         from . import verbs

@@ -1,4 +1,4 @@
-"""What the measuring verbs, `measure` and `audit`, do with their options."""
+"""What the measuring verbs, `measure`, `formfactor` and `audit`, do with their options."""
 
 import os
 import sys
@@ -146,6 +146,25 @@ def _check_measure(options):
             if not _ending(path) or _ending(path) not in endings.replace(",", "").split():
                 raise Mistake(f"{path}: ends in {endings}; write one of these")
             check_folder(path)
+
+
+def formfactor(options):
+    """Print solid angles and form factors of a patch or a polygon to a polygon, by every way."""
+    if options.timeout:
+        limit_time(options.timeout)
+    from . import factor_table as table
+
+    here, there = table.corners(options.here, "--from"), table.corners(options.there, "--to")
+    target, chance = table.polygon(there, "--to"), (options.samples, options.seed)
+    if len(here) == 1:
+        normal = table.vector(options.normal or "0,0,1", "--normal")
+        found = table.patch(here[0], normal, target, *chance)
+    elif options.normal:
+        raise Mistake("--normal: a polygon has its own; leave it out, or give --from one point")
+    else:
+        found = table.polygons(table.polygon(here, "--from"), target, *chance)
+    print(table.as_json(found) if options.json else table.as_text(found))
+    return 0
 
 
 def _ending(path):
