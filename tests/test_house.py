@@ -16,8 +16,8 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "parameter cache supervise polygons reference_terms camera tomltext driverlog glsltext "
     "difference contract image sheet gonio captions spectrum claims arguments factors",
     "catalog mesh reference_energy tables panels units estimates card",
-    "formats shapes plots factor_table reference flatten",
-    "geometry compose parts materials",
+    "formats shapes plots factor_table reference flatten daylight",
+    "geometry compose parts materials surroundings",
     "settings layout content",
     "scenefile stock",
     "scene",
@@ -124,7 +124,7 @@ def test_nothing_is_left_open():
 
 
 def test_every_asset_folder_names_its_sources():
-    for folder in ("meshes", "fonts", "spectra"):
+    for folder in ("meshes", "fonts", "spectra", "sky", "environments"):
         sources = (ROOT / "assets" / folder / "SOURCES.md").read_text()
         for path in (ROOT / "assets" / folder).iterdir():
             if path.name not in ("SOURCES.md", "LICENSE.txt"):
