@@ -95,9 +95,21 @@ def _capture(parser):
         metavar="KEY=A,B,C",
         help="one picture for each value, on a captioned sheet; again for a grid",
     )
+    text = (
+        "in false colour: luminance, irradiance, illuminance, albedo, normal, or error:KEY=VALUE…"
+    )
+    parser.add_argument("--view", metavar="VIEW", help=text)
     parser.add_argument("-o", "--output", metavar="FILE", help=".png, .hdr or .npy")
     parser.add_argument("--strict", action="store_true", help="exit code 3 for broken pixels")
     parser.add_argument("--lang", choices=("en", "pt"), help="language of captions")
+
+
+def _probe(parser):
+    _scene_options(parser)
+    parser.add_argument("--size", metavar="WxH", help="of the picture, as 1024x768")
+    text = "pixel from the top left one, 0,0; or shares of width and height, as 0.5,0.5"
+    parser.add_argument("--at", required=True, metavar="X,Y", help=text)
+    parser.add_argument("--json", action="store_true", help="for programs")
 
 
 def _source(parser):
@@ -227,6 +239,7 @@ def _list(parser):
 
 _VERBS = {
     "capture": ("Draw a scene to a picture, or to a captioned sheet of pictures.", _capture),
+    "probe": ("Tell the light at one point of a picture, in watts and in lumens.", _probe),
     "info": ("Tell what a mesh, a model, a light, a scene or a Lumiar picture holds.", _info),
     "source": ("Print the GLSL of a scene, each stage exactly as compiled.", _source),
     "compare": ("Measure how picture B differs from A; exit 1 beyond a limit.", _compare),

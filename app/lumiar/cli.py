@@ -3,10 +3,14 @@
 import os
 import sys
 
-VERBS = ("capture", "info", "source", "compare", "measure", "formfactor", "audit", "list")
+VERBS = (
+    *("capture", "probe", "info", "source", "compare"),
+    *("measure", "formfactor", "audit", "list"),
+)
 HELP = """usage: lumiar VERB … (lumiar VERB --help tells more)
 
   capture [SCENE]  draw a scene to a picture: .png, or .hdr and .npy for linear radiance
+  probe [SCENE]    the light at one point of its picture: radiance, irradiance, angles, shares
   info FILE        what a mesh, a model, a light, a scene or a Lumiar picture holds
   source [SCENE]   the GLSL of a scene, exactly as compiled
   compare A B      how two pictures differ; exit code 1 beyond a limit you give

@@ -74,9 +74,10 @@ class Renderer(OnCard):
             yield strip
 
     def pixel(self, scene, x, y, shows="radiance"):
-        """Return what is in the middle of a pixel, 3 floats, or None where no object is.
+        """Return what is in the middle of a pixel, 3 floats.
 
-        x, y count from the top left pixel, which is 0, 0; see `strips` for shows.
+        x, y count from the top left pixel, which is 0, 0; see `strips` for shows. Of anything but
+        radiance None where no object is.
         """
         width, height = scene.size
         scene = scene._replace(samples=1)
@@ -86,7 +87,7 @@ class Renderer(OnCard):
             radiance.viewport = (-int(x), -int(y), width, height)
             held = self._accumulated(scene, radiance, (int(x), int(y)), shows)
             *values, surface = struct.unpack("4f", held.read(components=4, dtype="f4"))
-        return tuple(values) if surface else None
+        return tuple(values) if surface or shows == "radiance" else None
 
     def _strip(self, scene, linear, side, rows, top, shows):
         width, height = scene.size

@@ -25,17 +25,49 @@ def capture(options):
             scene = scene.changed(key, getattr(options, key), f"--{key}: ")
     if options.vary:
         scene = given.varied(scene, options.vary, options.size)
-    from . import picture
     from .renderer import Renderer
 
-    renderer = Renderer()
-    broken = picture.write(scene, path, renderer, _Progress(path))
+    renderer, progress = Renderer(), _Progress(path)
+    if options.view:
+        from . import falsecolour, views
+
+        where, here = "--view: ", os.getcwd()
+        view = views.chosen(options.view, where)
+        broken = falsecolour.write(scene, path, view, renderer, where, here, progress)
+    else:
+        from . import picture
+
+        broken = picture.write(scene, path, renderer, progress)
     print(path)
     if broken:
         cut = ", or its loops cut short after 65535 steps" * renderer.may_cut_loops
-        text = f"{broken} pixels have no finite radiance (NaN or infinite{cut}); they are magenta"
+        what = options.view.partition(":")[0] if options.view else "radiance"
+        text = f"{broken} pixels have no finite {what} (NaN or infinite{cut}); they are magenta"
         print(f"lumiar: {path}: {text}", file=sys.stderr)
     return 3 if broken and options.strict else 0
+
+
+def probe(options):
+    """Print what is at one pixel of a scene's picture."""
+    if options.timeout:
+        limit_time(options.timeout)
+    scene = given.scene(options)
+    if options.size:
+        scene = scene.changed("size", options.size, "--size: ")
+    if scene.panels:
+        several = f"{options.scene}: a sheet of {len(scene.panels)} pictures"
+        raise Mistake(f"{several}; probe a scene of one picture")
+    from . import measure, readout, scenefile
+    from . import probe as meter
+    from .renderer import Renderer
+
+    at = meter.place(options.at, scene.size)
+    with Renderer() as renderer, measure.Instrument(renderer.context) as instrument:
+        found = meter.measured(scene, at, renderer, instrument)
+    lang = scenefile.system_language() if scene.lang == "system" else scene.lang
+    name = options.scene or "lumiar"
+    print(readout.as_json(found) if options.json else readout.text(found, name, lang))
+    return 0
 
 
 def source(options):
