@@ -241,8 +241,8 @@ def _light(file, index, data):
             one = settings.light_with(one, key, value, where(key), file.folder)
         elif key not in names:
             one = one._replace(values={**one.values, key: _given(kind, key, value, where(key))})
-    own = next((key for key in data if key in (*LIGHT_TEXTS, *LIGHT)), "kind")
-    return settings.checked(one, where(own))
+    named = kind.tinted.name if kind.tinted else "kind"  # which may have brought the unit along
+    return settings.checked(one, lambda key: where(key if key in data else named))
 
 
 def _own(one, written):

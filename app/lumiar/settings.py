@@ -1,10 +1,13 @@
 """Changing one value of a scene by its name, as `--set`, `--vary`, panels and the window do."""
 
 import math
+import re
 
 from . import catalog, geometry
 from .errors import Mistake, nearest
 from .parts import CAMERA, LIGHT, LIGHT_TEXTS, OBJECT, SCENE, Light
+
+_NUMBER = re.compile(r"[-+.\d]+(?:[eE][-+]?\d+)?")
 
 
 def changed(scene, key, value, where="", folder=""):
@@ -129,7 +132,7 @@ def light_with(one, key, value, where="", folder=""):
         spectrum = {"temperature": None} if key == "illuminant" else {}
         return one._replace(**{key: value.strip()}, **spectrum)
     parameter = one.kind.parameter(key, where)
-    if parameter.tinted and isinstance(value, str) and value.strip()[-1:].isalpha():
+    if parameter.tinted and isinstance(value, str) and not _NUMBER.fullmatch(value.strip()):
         from . import units
 
         value, unit = units.split(value, where)
@@ -139,13 +142,17 @@ def light_with(one, key, value, where="", folder=""):
 
 
 def checked(one, where=""):
-    """Return a Light whose own keys suit its kind, its unit as Lumiar spells it."""
+    """Return a Light whose own keys suit its kind, its unit as Lumiar spells it.
+
+    where begins the line of a Mistake: text, or a function that gives it for a key.
+    """
+    at = where if callable(where) else lambda key: where
     kind, tinted = one.kind, one.kind.tinted
     suits = {
         "unit": tinted,
         "temperature": tinted,
         "illuminant": tinted,
-        "image": "image" in kind.given,
+        "image": "picture" in kind.given,
         "samples": kind.sampled,
         "shadows": "light" in kind.defines,
         "visible": {"environment", "arriving"} & kind.defines,
@@ -153,16 +160,15 @@ def checked(one, where=""):
     fresh = Light(kind, {})
     for key, good in suits.items():
         if not good and getattr(one, key) != getattr(fresh, key):
-            raise Mistake(f"{where}a light of the kind {kind.name} has no {key}; leave it out")
+            raise Mistake(f"{at(key)}a light of the kind {kind.name} has no {key}; leave it out")
     if one.unit:
         from . import units
 
-        unit = units.unit(one.unit, where)
+        unit = units.unit(one.unit, at("unit"))
         allowed = units.allowed(tinted.unit, kind.name)
         if unit not in allowed:
-            raise Mistake(
-                f"{where}{tinted.name} of {kind.name} in {unit}; allowed: {', '.join(allowed)}"
-            )
+            what = f"{tinted.name} of {kind.name} in {unit}"
+            raise Mistake(f"{at('unit')}{what}; allowed: {', '.join(allowed)}")
         one = one._replace(unit=unit)
     if one.illuminant:
         from . import spectrum
@@ -170,7 +176,7 @@ def checked(one, where=""):
         names = spectrum.names()
         if one.illuminant not in names:
             why = nearest(one.illuminant, names)
-            raise Mistake(f"{where}no illuminant '{one.illuminant}'; {why}")
+            raise Mistake(f"{at('illuminant')}no illuminant '{one.illuminant}'; {why}")
     return one
 
 

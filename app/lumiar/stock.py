@@ -67,7 +67,7 @@ class Stock:
         for number, light in enumerate(scene.lights, 1):
             for name, texels in layout.tables(light, number).items():
                 held = kept.get(id(texels)) or self._textures.pop(id(texels), None)
-                held = held or (texels, self._texture(texels))
+                held = held or (texels, self._made(*texels))
                 kept[id(texels)], found[name] = held, held[1]
         for _, texture in self._textures.values():  # of scenes before
             texture.release()
@@ -76,11 +76,11 @@ class Stock:
             found |= self._hidden_by(placed)
         return found
 
-    def _texture(self, texels):
-        made = self.context.texture(texels.size, texels.components, texels.data, dtype="f4")
-        kind = moderngl.LINEAR if texels.linear else moderngl.NEAREST
-        made.filter, made.repeat_y = (kind, kind), False
-        return made
+    def _made(self, size, components, data, linear=False):
+        texture = self.context.texture(size, components, data, dtype="f4")
+        kind = moderngl.LINEAR if linear else moderngl.NEAREST
+        texture.filter, texture.repeat_y = (kind, kind), False
+        return texture
 
     def _hidden_by(self, placed):
         """Return {name: texture} of what shadow rays may meet, built anew when an object moves."""
@@ -90,9 +90,25 @@ class Stock:
 
             for texture in self._hiding[1].values():
                 texture.release()
-            made = occluders.tables([(g.vertices, g.indices, world) for g, world in key])
-            self._hiding = (key, {name: self._texture(texels) for name, texels in made.items()})
+            made = occluders.build(_triangles(key))
+            pairs = zip(
+                ("rig_nodes", "rig_corners"), (made.nodes, made.corners), made.sizes, strict=True
+            )
+            self._hiding = (key, {name: self._made(size, 4, data) for name, data, size in pairs})
         return self._hiding[1]
+
+
+def _triangles(placed):
+    """Return the triangles (n, 3, 3) float32 of all that is placed, in the world."""
+    import numpy as np
+
+    found = []
+    for mesh, world in placed:
+        points = np.frombuffer(mesh.vertices, np.float32).reshape(-1, 6)[:, :3].astype(np.float64)
+        matrix = np.reshape(world, (4, 4))
+        points = points @ matrix[:3, :3].T + matrix[:3, 3]
+        found.append(points.astype(np.float32)[np.frombuffer(mesh.indices, np.uint32)])
+    return np.concatenate(found).reshape(-1, 3, 3)
 
 
 def _state(path):

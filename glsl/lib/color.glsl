@@ -9,12 +9,12 @@ vec3 srgb_encode(vec3 linear) {
 // on the luminance of ITU-R BT.709.
 // L: exposed radiance, [0, inf)
 vec3 tone_reinhard(vec3 L) {
-    return L / (1.0 + dot(L, vec3(0.2126, 0.7152, 0.0722)));
+    return L / (1.0 + max(dot(L, vec3(0.2126, 0.7152, 0.0722)), 0.0));
 }
 
 // K. Narkowicz, "ACES filmic tone mapping curve", 2016: a rational fit to the ACES output curve.
-// L: exposed radiance, [0, inf); beyond 1e4 the curve is flat, and its squares would overflow
+// L: exposed radiance; below 0 the curve would rise again, beyond 1e4 it is flat, its squares overflow
 vec3 tone_aces(vec3 L) {
-    L = min(L, 1e4);
+    L = clamp(L, 0.0, 1e4);
     return L * (2.51 * L + 0.03) / (L * (2.43 * L + 0.59) + 0.14);
 }

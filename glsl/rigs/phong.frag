@@ -12,7 +12,8 @@ void main() {
     N = gl_FrontFacing ? N : -N;  // where two_sided
     Frame frame = Frame(N);  // where not tangent
     Frame frame = tangent_frame(N, rig_tangent);  // where tangent
-    rig_seed = rig_hash(uint(gl_FragCoord.x) + 65536u * uint(gl_FragCoord.y + float(rig_shift.y)));  // where sampled
+    ivec2 pixel = ivec2(gl_FragCoord.xy) + rig_shift;  // where sampled
+    rig_seed = rig_hash(uint(pixel.x) + 65536u * uint(pixel.y));  // where sampled
     rig_ground = normalize(cross(normalize(dFdx(rig_position)), normalize(dFdy(rig_position))));  // where shadowed
     rig_out = vec4(rig_radiance(rig_position, frame), 1.0);
 }
