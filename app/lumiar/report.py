@@ -3,7 +3,7 @@
 import json
 import os
 
-from . import catalog, geometry, materials, scenefile
+from . import catalog, geometry, materials, scenefile, settings
 from .errors import Mistake, nearest
 from .scene import Scene
 
@@ -52,7 +52,9 @@ def everything(kind=None, as_json=False, lang="en"):
         for entry in entries:
             about = entry.get("title", "")
             about = about.get(lang) or about.get("en", "") if isinstance(about, dict) else about
-            names = ", ".join(p["name"] for p in entry.get("parameters", ()))
+            names = ", ".join(
+                [*(p["name"] for p in entry.get("parameters", ())), *entry.get("also", ())]
+            )
             lines.append(f"  {entry['name']:14} {about}{': ' if about and names else ''}{names}")
     return "\n".join(lines)
 
@@ -79,8 +81,11 @@ def _shader(shader):
         "kind": shader.kind,
         "title": shader.header.get(shader.kind, ""),
         **{key: shader.header[key] for key in ("paper", "note") if key in shader.header},
-        "claims": shader.claims,
-        "needs": [*shader.needs],
+        **(
+            {"claims": shader.claims, "needs": [*shader.needs]}
+            if shader.kind == "model"
+            else {"also": settings.own_keys(shader)}
+        ),
         "parameters": [_parameter(p) for p in shader.parameters],
     }
 
@@ -132,6 +137,8 @@ def _as_text(facts):
                 limits = ", ".join(p.get("choices", ())) or _range(p)
                 text = p["text"] + (f" ({p['unit']})" if p["unit"] else "")
                 lines.append(f"  {p['name']:12} {_value(p['default']):20} {limits:20} {text}")
+        elif key == "also":
+            lines += [f"also {name:10} {allowed}" for name, allowed in value.items()]
         elif key == "claims":
             said = (f"{name} ({when})" if when else name for name, when in value.items())
             lines.append(f"{'claims':15} {', '.join(said) or 'none'}")

@@ -128,7 +128,8 @@ def light_with(one, key, value, where="", folder=""):
     if key in LIGHT_TEXTS:
         if not isinstance(value, str):
             raise Mistake(f'{where}{key} = {value!r}; write text in quotes: "…"')
-        value = canonical(key, value, where, folder) if key == "image" else value
+        if key == "image" and "picture" in one.kind.given:
+            value = canonical(key, value, where, folder)
         spectrum = {"temperature": None} if key == "illuminant" else {}
         return one._replace(**{key: value.strip()}, **spectrum)
     parameter = one.kind.parameter(key, where)
@@ -141,42 +142,52 @@ def light_with(one, key, value, where="", folder=""):
     return one._replace(values={**one.values, key: value})
 
 
+def own_keys(kind):
+    """Return {key: what it may be} of the keys, beside its parameters, of a kind of light."""
+    found = {}
+    if kind.tinted:
+        from . import spectrum, units
+
+        found["unit"] = ", ".join(units.allowed(kind.tinted.unit, kind.name))
+        found["temperature"] = LIGHT["temperature"].allowed()
+        found["illuminant"] = ", ".join(spectrum.names())
+    if "picture" in kind.given:
+        from . import surroundings
+
+        found["image"] = f"the path of a .hdr, {', '.join(surroundings.shipped())}"
+    if kind.sampled:
+        found["samples"] = LIGHT["samples"].allowed()
+    if "light" in kind.defines:
+        found["shadows"] = LIGHT["shadows"].allowed()
+    if {"environment", "arriving"} & kind.defines:
+        found["visible"] = LIGHT["visible"].allowed()
+    return found
+
+
 def checked(one, where=""):
     """Return a Light whose own keys suit its kind, its unit as Lumiar spells it.
 
     where begins the line of a Mistake: text, or a function that gives it for a key.
     """
     at = where if callable(where) else lambda key: where
-    kind, tinted = one.kind, one.kind.tinted
-    suits = {
-        "unit": tinted,
-        "temperature": tinted,
-        "illuminant": tinted,
-        "image": "picture" in kind.given,
-        "samples": kind.sampled,
-        "shadows": "light" in kind.defines,
-        "visible": {"environment", "arriving"} & kind.defines,
-    }
-    fresh = Light(kind, {})
-    for key, good in suits.items():
-        if not good and getattr(one, key) != getattr(fresh, key):
+    fresh, kind = Light(one.kind, {}), one.kind
+    given = {key: getattr(one, key) for key in (*LIGHT_TEXTS, *LIGHT)}
+    given = {key: value for key, value in given.items() if value != getattr(fresh, key)}
+    allowed = own_keys(kind) if given else {}
+    for key in given:
+        if key not in allowed:
             raise Mistake(f"{at(key)}a light of the kind {kind.name} has no {key}; leave it out")
     if one.unit:
         from . import units
 
         unit = units.unit(one.unit, at("unit"))
-        allowed = units.allowed(tinted.unit, kind.name)
-        if unit not in allowed:
-            what = f"{tinted.name} of {kind.name} in {unit}"
-            raise Mistake(f"{at('unit')}{what}; allowed: {', '.join(allowed)}")
+        if unit not in allowed["unit"].split(", "):
+            what = f"{kind.tinted.name} of {kind.name} in {unit}"
+            raise Mistake(f"{at('unit')}{what}; allowed: {allowed['unit']}")
         one = one._replace(unit=unit)
-    if one.illuminant:
-        from . import spectrum
-
-        names = spectrum.names()
-        if one.illuminant not in names:
-            why = nearest(one.illuminant, names)
-            raise Mistake(f"{at('illuminant')}no illuminant '{one.illuminant}'; {why}")
+    if one.illuminant and one.illuminant not in (names := allowed["illuminant"].split(", ")):
+        why = nearest(one.illuminant, names)
+        raise Mistake(f"{at('illuminant')}no illuminant '{one.illuminant}'; {why}")
     return one
 
 

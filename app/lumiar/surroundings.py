@@ -39,6 +39,22 @@ def shipped():
     return {name[:-4]: os.path.join(FOLDER, name) for name in names}
 
 
+def canonical(name, folder="", where=""):
+    """Return an image's name if it comes with Lumiar, else the full path of a .hdr in `folder`.
+
+    Raises Mistake, beginning with `where`, for what is neither.
+    """
+    if name in shipped():
+        return name
+    if not name.lower().endswith(".hdr"):
+        advice = 'name the path of a .hdr, as in image = "room.hdr"'
+        raise Mistake(f"{where}no image '{name}'; {nearest(name, shipped())}; {advice}")
+    path = os.path.abspath(os.path.join(folder, os.path.expanduser(name)))
+    if not os.path.isfile(path):
+        raise Mistake(f"{where}no file {path}; name a .hdr, or one of {', '.join(shipped())}")
+    return path
+
+
 def given(light):
     """Return {name: bytes or Texels} of what the file of a parts.Light asks the host for.
 
@@ -117,10 +133,7 @@ def _sky(turbidity, albedo, height):
 
 def _environment(image):
     """Return what an environment is given: its picture and its chances."""
-    path = shipped().get(image, image)
-    if not path.lower().endswith(".hdr"):
-        advice = 'name the path of a .hdr, as in image = "room.hdr"'
-        raise Mistake(f"no image '{image}'; {nearest(image, shipped())}; {advice}")
+    path = shipped().get(image) or canonical(image)
     try:
         status = os.stat(path)
         state = (status.st_size, status.st_mtime_ns)
