@@ -10,6 +10,7 @@ import functools
 
 import numpy as np
 
+from lumiar import reference_energy as energy
 from lumiar import reference_terms as terms
 from lumiar.reference_terms import azimuth, cosine, tangent, zenith
 
@@ -41,6 +42,16 @@ def lambert_surround(V, environment, albedo=(0.8, 0.8, 0.8), form="normalised", 
     """Return the share of the radiance about the normal that lambert reflects."""
     up = environment(np.broadcast_to([0.0, 0.0, 1.0], np.shape(V)))
     return _color(albedo) * (np.pi if form == "slide" else 1.0) * up
+
+
+def black_body(L, V, emissivity=1.0, **_):
+    """Return what a grey body reflects: what it does not emit (G. Kirchhoff, 1860)."""
+    return lambert(L, V, albedo=1.0 - emissivity)
+
+
+def black_body_surround(V, environment, emissivity=1.0, **_):
+    """Return the same share of the radiance about the normal."""
+    return lambert_surround(V, environment, albedo=1.0 - emissivity)
 
 
 @_on_units
@@ -91,7 +102,7 @@ def oren_nayar(L, V, albedo, sigma=0.0, roughness=0.0, form="qualitative", **_):
     """
     rho, s2 = _color(albedo), sigma**2
     if form == "energy_preserving":
-        return _energy_preserving(L, V, rho, roughness) * cosine(L)
+        return energy.oren_nayar(L, V, rho, roughness) * cosine(L)
     alpha, beta = np.maximum(zenith(L), zenith(V)), np.minimum(zenith(L), zenith(V))
     cos_phi, tan_beta = np.cos(azimuth(L) - azimuth(V)), np.minimum(tangent(L), tangent(V))
     c1, c2 = 1.0 - 0.5 * s2 / (s2 + 0.33), 0.45 * s2 / (s2 + 0.09)
@@ -104,25 +115,6 @@ def oren_nayar(L, V, albedo, sigma=0.0, roughness=0.0, form="qualitative", **_):
     once = c1 + cos_phi * c2 * tan_beta + (1.0 - np.abs(cos_phi)) * c3 * tan_mean
     twice = 0.17 * s2 / (s2 + 0.13) * (1.0 - cos_phi * (2.0 * beta / np.pi) ** 2)
     return np.maximum(rho * once + rho**2 * twice, 0.0) / np.pi * cosine(L)
-
-
-def _energy_preserving(L, V, rho, r):
-    """Return the EON BRDF; 1 - E_FON = r A (g - G(theta)/pi), so that r = 0 is no 0/0."""
-    s = np.sin(zenith(L)) * np.sin(zenith(V)) * np.cos(azimuth(L) - azimuth(V))
-    t = np.where(s > 0.0, np.maximum(cosine(L), cosine(V)), 1.0)
-    g, average = 0.5 - 2.0 / (3.0 * np.pi), 2.0 / 3.0 - 28.0 / (15.0 * np.pi)
-    A = 1.0 / (1.0 + g * r)
-    mean = 1.0 - r * A * (g - average)
-    often = rho**2 * mean / (1.0 - rho * (1.0 - mean))
-    lost = r * A * (g - _fon_albedo(L)) * (g - _fon_albedo(V)) / (g - average)
-    return (rho * A * (1.0 + r * s / t) + often * lost) / np.pi
-
-
-def _fon_albedo(w):
-    """Return G(theta)/pi of E_FON = A (1 + r G/pi), tan(theta) (1 - sin^3) by the elevation."""
-    s, half_elevation = np.sin(zenith(w)), np.pi / 4.0 - zenith(w) / 2.0
-    steep = s * np.tan(half_elevation) * (1.0 + s + s**2)
-    return (s * (zenith(w) - s * np.cos(zenith(w))) + 2.0 / 3.0 * (steep - s)) / np.pi
 
 
 @_opaque
@@ -188,7 +180,7 @@ def _microfacets(L, V, F, alpha, distribution, average=0.0, shadowing="smith", *
     scale = 1.0 if choices.get("norm") == "published" else 0.25
     value = F * scale * terms.D(L + V, alpha, alpha_y, distribution) * G[shadowing] / cosine(V)
     if choices.get("compensated") and not choices.get("anisotropic"):
-        value = value + terms.multiple_scattering(L, V, alpha, distribution, average) * cosine(L)
+        value = value + energy.multiple_scattering(L, V, alpha, distribution, average) * cosine(L)
     return value
 
 

@@ -5,7 +5,6 @@ unless said, and what is said of each is a column (n, 1). c is the cosine of an 
 in [0, 1], n the index of refraction behind an interface over the one before it.
 """
 
-import functools
 import math
 
 import numpy as np
@@ -180,10 +179,10 @@ def D(H, alpha_x, alpha_y, distribution):
 def smith_lambda(w, alpha_x, alpha_y, distribution):
     """Return Lambda of directions on either side (Heitz 2014, sec. 5), with the exact erfc."""
     alpha = np.hypot(alpha_x * np.cos(azimuth(w)), alpha_y * np.sin(azimuth(w)))
-    return _lambda(alpha * np.abs(tangent(w)), distribution)
+    return lambda_at(alpha * np.abs(tangent(w)), distribution)
 
 
-def _lambda(t, distribution):
+def lambda_at(t, distribution):
     """Return Lambda where t = alpha tan(theta)."""
     if distribution != "beckmann":
         return 0.5 * t * np.tan(0.5 * np.arctan(t))  # (1/cos(x) - 1) / 2 with tan(x) = t
@@ -206,93 +205,3 @@ def G_v_groove(L, V):
     """Return min(1, 2 n.h n.v / v.h, 2 n.h n.l / v.h) (J. Blinn, SIGGRAPH 1977)."""
     lower = np.minimum(cosine(L), cosine(V))
     return np.minimum(1.0, 2.0 * cosine(L + V) * lower / half_cosine(L, V))
-
-
-def multiple_scattering(L, V, alpha, distribution, average):
-    """Return what a lobe of F = 1 loses, as a BRDF [1/sr] (C. Kulla and A. Conty, SIGGRAPH 2017).
-
-    average: the mean reflectance, (1, 3).
-    """
-    missing = lost_average(float(alpha), distribution)
-    color = average**2 * (1.0 - missing) / (1.0 - average * missing)
-    product = lost(cosine(L), alpha, distribution) * lost(cosine(V), alpha, distribution)
-    return color * product / (np.pi * missing)
-
-
-def lost(mu, alpha, distribution):
-    """Return 1 - E(mu) of the isotropic lobe with height-correlated Smith and F = 1.
-
-    Error below 1e-8, and below 1e-5 of the value for ggx.
-    """
-    low, high = _log_range(alpha, distribution)
-    y = np.clip(np.log(np.maximum(mu, 1e-99) / alpha), low, high)
-    series = _lost_series(float(alpha), distribution)
-    x = (2.0 * y - low - high) / (high - low)
-    scaled = np.polynomial.chebyshev.chebval(x, series)
-    return np.maximum(scaled, 0.0) / (1.0 + np.exp(2.0 * y))
-
-
-@functools.lru_cache(maxsize=256)
-def lost_average(alpha, distribution):
-    """Return 1 - E_avg = 2 int (1 - E) mu dmu, by Gauss-Legendre in log(mu)."""
-    x, weight = np.polynomial.legendre.leggauss(200)
-    low, high = _log_range(alpha, distribution)
-    mu = alpha * np.exp(0.5 * (low + high + (high - low) * x))
-    return float((mu**2 * lost(mu, alpha, distribution)) @ weight * (high - low))
-
-
-def _log_range(alpha, distribution):
-    """Return where E varies with log(mu / alpha); beckmann loses under 1e-40 from 20 alpha up."""
-    top = 20.0 if distribution == "beckmann" else 1e9
-    return math.log(1e-9), min(-math.log(alpha), math.log(top))
-
-
-@functools.lru_cache(maxsize=64)
-def _lost_series(alpha, distribution):
-    """Return Chebyshev coefficients in log(mu / alpha) of (1 - E)(1 + (mu / alpha)^2)."""
-    low, high = _log_range(alpha, distribution)
-
-    def scaled(x):
-        y = 0.5 * (low + high + (high - low) * x)
-        mu = np.minimum(alpha * np.exp(y), 1.0)
-        return (1.0 + np.exp(2.0 * y)) * [_lost_at(m, alpha, distribution) for m in mu.tolist()]
-
-    degree = int((14 if distribution == "beckmann" else 7) * (high - low))
-    return np.polynomial.chebyshev.chebinterpolate(scaled, degree)
-
-
-def _lost_at(mu, alpha, distribution):
-    """Return 1 - E at one mu: visible normals whose mirror ray is shadowed or below the surface.
-
-    h = (phi, w), w the share of normals steeper than theta_h. Double exponential quadrature (H.
-    Takahasi and M. Mori, 1974), since layers at the horizon and at grazing end every interval.
-    """
-    t = np.linspace(-3.3, 3.3, 80)
-    x, rest = 1.0 / (1.0 + np.exp(-np.pi * np.sinh(t))), 1.0 / (1.0 + np.exp(np.pi * np.sinh(t)))
-    weight = (t[1] - t[0]) * np.pi * np.cosh(t) * x * rest
-    s = math.sqrt((1.0 - mu) * (1.0 + mu))
-    masked, total = _lambda(np.array(alpha * s / mu), distribution), 0.0
-    for side in (1.0, -1.0):
-        along = side * s * np.sin(np.pi / 2.0 * x)[:, None]  # sin(theta_v) cos(phi)
-        limit = np.pi / 4.0 + np.arctan2(along, mu) / 2.0  # theta_h that mirrors v to the horizon
-        up = _steeper(np.tan(limit) / alpha, distribution)
-        last = (
-            0.0 if side > 0.0 else _steeper(-mu / np.minimum(along, -1e-99) / alpha, distribution)
-        )
-        slope, step = alpha * _slope(up + (1.0 - up) * rest, distribution), (1.0 - up) * weight
-        cos_l = np.hypot(along, mu) * np.sin(2.0 * (limit - np.arctan(slope)))
-        cos_l = np.clip(cos_l, 1e-30, 1.0)
-        shadow = _lambda(alpha * np.sqrt((1.0 - cos_l) * (1.0 + cos_l)) / cos_l, distribution)
-        inner = (1.0 + slope * along / mu) * shadow / (1.0 + shadow + masked) * step
-        slope, step = alpha * _slope(last + (up - last) * rest, distribution), (up - last) * weight
-        total += weight @ (inner + (1.0 + slope * along / mu) * step).sum(1) / 2.0
-    return float(total / (1.0 + masked))
-
-
-def _steeper(slope, distribution):
-    return np.exp(-(slope**2)) if distribution == "beckmann" else 1.0 / (1.0 + slope**2)
-
-
-def _slope(w, distribution):
-    w = np.clip(w, 1e-300, 1.0)
-    return np.sqrt(-np.log(w) if distribution == "beckmann" else (1.0 - w) / w)
