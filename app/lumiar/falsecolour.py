@@ -61,7 +61,7 @@ def _page(scene, view, cells):
         swatches.append((scale.EMPTY, words["empty"]))
     if any(found.broken.any() for found in every):
         swatches.append((scale.BROKEN, words["broken"]))
-    title = words[view.name]
+    said = {"log": "", "what": "", "rms": 0.0}
     if view.name == "normal":
         pictures = [_directions(found) for found in every]
         axes = [(_colour(axis), name) for name, axis in _AXES.items()]
@@ -73,8 +73,9 @@ def _page(scene, view, cells):
         if view.name == "error":
             what = ", ".join(f"{key} = {os.path.basename(value)}" for key, value in view.pairs)
             rms = float(np.sqrt(np.mean(np.square(good, dtype=np.float64)))) if good.size else 0.0
-            title = title.format(what[:TITLE], rms)
-        title += words["log"] if ruler.log else ""
+            said |= {"what": what[:TITLE], "rms": rms}
+        said["log"] = words["log"] if ruler.log else ""
+    title = words[view.name].format(**said)
     sizes = [found.surface.shape[::-1] for found in every]
     size, pixels = sizes[0], pictures[0].tobytes()
     if scene.panels:
@@ -88,9 +89,9 @@ def _page(scene, view, cells):
 
 
 _AXES = {
-    f"{sign}{name}": tuple(float(f"{sign}{int(k == i)}") for k in range(3))
+    f"{sign}{name}": tuple((1.0 if sign == "+" else -1.0) * (k == i) for k in range(3))
     for i, name in enumerate("xyz")
-    for sign in "+-"
+    for sign in "+−"
 }
 
 
@@ -114,7 +115,7 @@ def _values(found, size, path):
     if image.ending(path) == ".hdr":
         if found.values.ndim == 3:
             raise Mistake(f"{path}: .hdr holds no negative numbers, as normals have; write a .npy")
-        grey = np.where(found.surface, found.values, np.float32(0.0))
+        grey = np.where(found.surface | np.isfinite(found.values), found.values, np.float32(0.0))
         return image.hdr(size, [np.repeat(grey[..., None], 3, axis=2).tobytes()])
     data = io.BytesIO()
     np.save(data, found.values)

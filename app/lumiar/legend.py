@@ -48,7 +48,7 @@ class _Page:
     def write(self, text):
         """Draw a text in the middle, in as many lines as it needs."""
         row, most = "", self.width - 2 * self.gap
-        for word in [*text.split(), ""]:
+        for word in [*text.split(" "), ""]:
             longer = f"{row} {word}".strip()
             if row and (not word or self.font.getlength(longer) > most):
                 left = (self.width - self.font.getlength(row)) / 2

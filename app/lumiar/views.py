@@ -9,6 +9,7 @@ from . import settings, units, variants
 from .errors import Mistake, nearest
 
 NAMES = ("luminance", "irradiance", "illuminance", "albedo", "normal", "error")
+MOST = 4096  # directions to a light, which are as many for a pixel as its picture takes
 _PAIR = re.compile(r"\s*[A-Za-z_][\w.]*\s*=")
 
 
@@ -76,7 +77,9 @@ def seen(scene, view, renderer, where="", folder=""):
         visible = any(light.visible for light in scene.lights)
         surface = np.full(values.shape, True) if visible else _surface(scene, renderer)
         return Seen(values, surface)
-    one = variants.lit_by(scene._replace(samples=1), scene.lights)
+    more = (min(MOST, light.samples * scene.samples) for light in scene.lights)
+    lights = [light._replace(samples=n) for light, n in zip(scene.lights, more, strict=True)]
+    one = variants.lit_by(scene._replace(samples=1), lights)
     surface = _surface(one, renderer)
     if view.name == "normal":
         values = _drawn(one, renderer, "normal")
