@@ -34,7 +34,8 @@ def test_a_shipped_model_is_as_it_claims_and_as_exact(name, instrument):
         "infinite": 0,
         "negative": 0,
     }
-    assert sheet["error"]["default"]["beyond"] <= 1e-5
+    default = sheet["error"].get("default")
+    assert default["beyond"] <= 1e-5 if default else name == "black_body"  # which scatters nothing
     corners = sheet["error"].get("corners", {"beyond": 0.0, "where": ""})
     # PHYSICS B.8: lobes of alpha 1e-3 across 1 keep 3.4e-3; and f82 = 0 makes the reflectance
     # touch 0 at 82 degrees, where any error is large beside it
