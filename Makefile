@@ -30,7 +30,7 @@ bench: $(VENV)/dev driver
 # Mitsuba and tmm, hundreds of megabytes: only these tests need them.
 peers: $(VENV)/dev
 	@$(PIP) install uv && $(BIN)/uv pip install --quiet --python $(BIN)/python --group peers
-	$(BIN)/python -m pytest tests/test_reference.py
+	$(BIN)/python -m pytest tests/test_reference.py tests/test_daylight.py tests/test_surroundings.py
 
 style: $(VENV)/dev
 	$(BIN)/ruff check

@@ -6,7 +6,7 @@ import lamps
 import numpy as np
 import pytest
 
-from lumiar import daylight, units
+from lumiar import daylight, spectrum, units
 
 HEIGHTS = (10, 20, 30, 40, 50, 60)  # degrees: the course's
 ZENITH = (1201, 1737, 2237, 2722, 3258, 4098)  # cd/m^2, turbidity 3, albedo 0.3: PHYSICS C.8
@@ -92,6 +92,31 @@ def test_the_azimuth_runs_from_z_toward_x():
     assert daylight.direction(math.pi / 2, 1.0) == pytest.approx((0, 1, 0))
 
 
+def test_mitsubas_spectral_sky_is_as_bright():
+    """It has the model's data every 40 nm, where those used here are of the whole spectrum."""
+    mi = pytest.importorskip("mitsuba", reason="an optional program to compare with")
+    mi.set_variant("scalar_spectral")
+    x, y, z = daylight.direction(math.radians(30.0), 0.4)
+    fields = {"type": "sunsky", "turbidity": 3.0, "albedo": 0.3, "sun_scale": 0.0}
+    fields["sun_direction"] = [z, x, y]  # its z is up
+    emitter = mi.load_dict({"type": "scene", "one": fields}).emitters()[0]
+    directions = [d for d in lamps.even(40) if d[1] > 0.1]
+    up, gamma = lamps.sky_angles(np.array(directions), 30.0, math.degrees(0.4))
+    ratios = []
+    for direction, *angles in zip(directions, up, gamma, strict=True):
+        seen, total = mi.SurfaceInteraction3f(), 0.0
+        seen.wi = mi.Vector3f(*(-direction[[2, 0, 1]]).tolist())
+        for first in range(380, 720, 20):
+            waves = range(first, first + 20, 5)
+            seen.wavelengths = mi.Spectrum([float(nm) for nm in waves])
+            powers = np.ravel(emitter.eval(seen)) * 1000.0  # per nm there, per um here
+            total += spectrum.xyz(dict(zip(waves, powers, strict=True)))[1]
+        one = daylight.sky(3.0, 0.3, math.radians(30.0))
+        ours = units.EFFICACY * daylight.luminance(one, *angles)
+        ratios.append(spectrum.LUMENS * total / ours)
+    assert np.array(ratios) == pytest.approx(1.0, abs=0.02)
+
+
 @pytest.mark.parametrize(("turbidity", "albedo", "height", "azimuth"), CASES)
 def test_the_cards_sky_is_the_published_one(context, turbidity, albedo, height, azimuth):
     light = lamps.light("sky", turbidity=turbidity, albedo=albedo, height=height, azimuth=azimuth)
@@ -139,13 +164,17 @@ def test_sampled_the_sky_gives_the_published_illuminance(context, height, expect
     assert found == pytest.approx(expected, rel=5e-4)
 
 
-def test_all_that_a_sky_is_made_of_matters(context):
+def test_all_that_a_sky_and_a_sun_are_made_of_matters(context):
     directions = lamps.even(50)
     usual = lamps.seen(context, lamps.light("sky"), directions)
     for name, value in (("turbidity", 5.0), ("albedo", 0.9), ("height", 41.0), ("azimuth", 31.0)):
         assert (lamps.seen(context, lamps.light("sky", **{name: value}), directions) != usual).any()
     doubled = lamps.seen(context, lamps.light("sky", strength=2.0), directions)
-    assert doubled == pytest.approx(2.0 * usual)
+    assert np.allclose(doubled, 2.0 * usual)
+    usual = np.hstack(lamps.drawn(context, lamps.light("sun"), [(0.3, 0.4)])[::2])
+    for name, value in (("turbidity", 5.0), ("height", 41.0), ("azimuth", 31.0), ("strength", 2.0)):
+        light = lamps.light("sun", **{name: value})
+        assert (np.hstack(lamps.drawn(context, light, [(0.3, 0.4)])[::2]) != usual).any()
 
 
 @pytest.mark.parametrize(("turbidity", "height"), [(3.0, 40.0), (2.0, 0.0), (10.0, 90.0)])

@@ -70,6 +70,24 @@ def test_the_middle_of_the_picture_is_z_and_its_left_x(context, written):
     assert lamps.seen(context, light, [(1, 0, 0)])[0] == pytest.approx((3, 0, 0), abs=1e-6)
 
 
+def test_a_direction_sees_in_mitsuba_what_it_sees_here(context, written):
+    """Its rows reach from pole to pole, ours half a pixel less: a smooth picture."""
+    mi = pytest.importorskip("mitsuba", reason="an optional program to compare with")
+    mi.set_variant("scalar_rgb")
+    y, x = np.mgrid[0:64, 0:128] * math.pi / 64.0
+    pixels = 2.0 + np.stack([np.sin(x), np.cos(x), np.cos(y)], 2)
+    path = written(pixels, "smooth")
+    scene = mi.load_dict({"type": "scene", "one": {"type": "envmap", "filename": path}})
+    emitter = scene.emitters()[0]
+    directions, expected = lamps.even(50), []
+    for direction in directions:
+        seen = mi.SurfaceInteraction3f()
+        seen.wi = mi.Vector3f((-direction).tolist())
+        expected.append(np.ravel(emitter.eval(seen)))
+    found = lamps.seen(context, lamps.light("environment", path), directions)
+    assert np.abs(found - expected).max() < 0.05
+
+
 @pytest.mark.parametrize("turn", [0.0, -123.0])
 @pytest.mark.parametrize("size", [(8, 16), (1, 1), (1, 9), (5, 1), (33, 47)])
 def test_a_direction_sees_the_picture_between_its_pixels(context, written, size, turn):

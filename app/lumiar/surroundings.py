@@ -4,6 +4,7 @@ import functools
 import math
 import os
 import struct
+import sys
 from itertools import accumulate
 from typing import NamedTuple
 
@@ -149,7 +150,7 @@ def _pictured(path, _):
     from .files import read_bytes
 
     data = read_bytes(path, image.FILE_LIMIT, "a .hdr picture")
-    key = ("environment", _VERSION, cache.fingerprint(data))
+    key = ("environment", _VERSION, cache.fingerprint(data), sys.byteorder)
     parts = cache.get(key)
     if not parts:
         pixels = _checked(image.read(path)[0], path)
