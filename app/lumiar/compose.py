@@ -83,11 +83,12 @@ def backdrop(light, number, constants):
     around = "environment" in light.defines
     words = ("environment",) if around else ("arriving", "reach")
     kinds = {"environment": [], "arriving": [], "reach": []}
-    kinds |= {word: [f"{word}_{number}"] for word in words}
+    kinds |= {word: [f"{word}_{number}"] for word in words if word in light.defines}
     places = {"LIGHTS": [(light.path, "lights", _renamed(light, number, constants))]}
+    facts = {"shape": not around, "far": not around and not kinds["reach"]}
     return {
         "vertex": finish(flatten("rigs/backdrop.vert", {}, {}, {})),
-        "fragment": finish(flatten("rigs/backdrop.frag", places, kinds, {"shape": not around})),
+        "fragment": finish(flatten("rigs/backdrop.frag", places, kinds, facts)),
     }
 
 

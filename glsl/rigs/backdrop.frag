@@ -16,5 +16,6 @@ void main() {
     rig_out = vec4(environment(way), 0.0);  // each environment
     rig_out = vec4(arriving(rig_eye, way), 0.0);  // each arriving
     if (rig_out.rgb == vec3(0.0)) discard;  // where shape
+    gl_FragDepth = 0.99999994;  // where far
     gl_FragDepth = clamp(rig_depth.x + rig_depth.y * stretch / reach(rig_eye, way), 0.0, 0.99999994);  // each reach
 }

@@ -7,7 +7,7 @@
 #include "rigs/environment.glsl"
 #include "rigs/loops.glsl"
 #include "rigs/spread.glsl"
-// OCCLUSION
+#include "rigs/occlusion.glsl"
 #include "MODEL"
 
 uniform vec3 rig_eye;
