@@ -14,8 +14,8 @@ SIZE = (65, 65)  # its middle pixel is the middle of the picture
 
 
 @pytest.fixture(scope="module")
-def instrument(renderer):
-    with measure.Instrument(renderer.context) as one:
+def instrument():
+    with measure.Instrument() as one:
         yield one
 
 
@@ -50,17 +50,16 @@ def test_a_point_light_of_candelas_gives_lux_by_the_laws_of_distance_and_cosine(
     assert found["lights"][0]["theta_i_deg"] == pytest.approx(angle, abs=1e-3)
 
 
-@pytest.mark.parametrize("radius", [0.5, 2.0])
-def test_lumens_in_a_black_sphere_give_the_same_lux_everywhere(probed, radius):
+def test_lumens_in_a_black_sphere_give_the_same_lux_everywhere(probed):
     """E = Phi / (4 pi r^2) at its vertices: points of the flat faces between them lie nearer."""
     scene = lit(
         "point:position=0,0,0:intensity=800 lm",
-        **{"mesh": f"sphere:subdivision=3:radius={radius}", "shading": "gouraud"},
+        **{"mesh": "sphere:subdivision=3:radius=2", "shading": "gouraud"},
         **{"albedo": (0, 0, 0), "camera__position": (0.1, 0.2, 0.3), "camera__fov": 90.0},
     )
     for pixel in ((32, 32), (3, 60), (50, 10)):
         found = probed(scene, *pixel)
-        expected = 800.0 / (4.0 * math.pi * radius**2)
+        expected = 800.0 / (4.0 * math.pi * 2.0**2)
         assert found["illuminance_lx"] == pytest.approx(expected, rel=1e-6)
         assert found["luminance_cd_m2"] == found["luminous_exitance_lm_m2"] == 0.0
 
@@ -98,9 +97,7 @@ def test_watts_are_lumens_over_the_efficacy_of_each_lights_spectrum(probed):
 
 
 def test_the_shares_of_the_lights_are_of_the_whole(probed):
-    scene = lit(
-        "point:intensity=60:color=1,0.5,0.2", "directional", "ambient:radiance=0.4", model="phong"
-    )
+    scene = lit("point:intensity=60:color=1,0.5,0.2", "ambient:radiance=0.4")
     found = probed(scene, 20, 40)
     for share, key in (("luminance", "luminance_cd_m2"), ("illuminance", "illuminance_lx")):
         assert sum(light[f"share_of_{share}"] for light in found["lights"]) == pytest.approx(1.0)
@@ -111,9 +108,8 @@ def test_the_shares_of_the_lights_are_of_the_whole(probed):
     assert alone["lights"][0]["share_of_illuminance"] == 1.0
 
 
-@pytest.mark.parametrize("model", ["phong", "ward", "cook_torrance", "oren_nayar"])
-def test_f_times_irradiance_is_the_radiance_of_a_light_from_one_direction(probed, model):
-    scene = lit("point:position=1,2,1.5", mesh="sphere", model=model, rotation=(10, 20, 30))
+def test_f_times_irradiance_is_the_radiance_of_a_light_from_one_direction(probed):
+    scene = lit("point:position=1,2,1.5", mesh="sphere", model="ward", rotation=(10, 20, 30))
     found = probed(scene, 40, 30)
     (light,) = found["lights"]
     expected = np.multiply(light["f_rgb_1_sr"], light["irradiance_rgb"])
@@ -134,6 +130,26 @@ def test_the_angles_are_those_of_the_geometry(probed):
     turn = np.dot(*flat) / np.prod([np.linalg.norm(w) for w in flat])
     turn = math.degrees(math.acos(turn))
     assert found["lights"][0]["azimuth_deg"] == pytest.approx(turn, abs=1e-3)
+
+
+@pytest.mark.parametrize("model", ["ward", "transparency"])
+def test_in_a_furnace_the_albedo_toward_the_eye_is_what_is_seen(probed, model):
+    found = probed(lit("furnace", model=model, mesh="sphere"), 45, 20)
+    assert found["albedo_to_eye_rgb"] == pytest.approx(found["radiance_rgb"], rel=1e-2)
+
+
+def test_a_mirror_sends_back_what_fresnel_says_though_no_image_of_a_point_is_drawn(probed):
+    """Grey metal of n = 0.18, k = 3 at 45 degrees: R = (Rs + Rp) / 2 of its complex index."""
+    metal = {"model": "conductor", "eta": (0.18, 0.18, 0.18), "k": (3.0, 3.0, 3.0)}
+    found = probed(lit("directional:direction=0,1,1", **metal))
+    index, c = 0.18 + 3.0j, math.sqrt(0.5)
+    t = np.sqrt(1.0 - 0.5 / index**2)
+    Rs, Rp = (abs((a - b) / (a + b)) ** 2 for a, b in ((c, index * t), (t, index * c)))
+    R = (Rs + Rp) / 2
+    assert found["lights"][0]["albedo"] == pytest.approx(R, rel=1e-4)
+    share = found["luminous_exitance_lm_m2"] / found["illuminance_lx"]
+    assert share == pytest.approx(R, rel=1e-4)
+    assert found["luminance_cd_m2"] == 0.0
 
 
 def test_what_loses_nothing_sends_out_all_that_arrives(probed):
@@ -199,7 +215,6 @@ def test_the_command_prints_a_table_or_json(lumiar):
     assert found["at_px"] == [32, 32] and found["lights"][0]["kind"] == "point"
     table = lumiar(*at, "--set", "lang=pt").stdout
     assert "iluminância" in table and f"{found['illuminance_lx']:.5g} lx" in table
-    lumiar("probe", "--at", "64,0", "--size", "64x64", code=2)
 
 
 def test_json_has_null_for_what_is_no_number():

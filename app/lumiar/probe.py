@@ -27,7 +27,8 @@ body's own are those of its temperature. Lights with an extent are sampled in SA
 
 The exitance is pi times the radiance where f is constant, and albedo times irradiance under a light
 from one direction or the same all around: exact. Of other lights the albedo for their middle, or
-the mean one, is taken, and nothing passes from behind: an estimate.
+the mean one, is taken: an estimate. There is none where light passes the surface. Albedos count
+what is mirrored, even of a light from one direction, whose image is drawn nowhere.
 """
 
 import math
@@ -81,7 +82,8 @@ def measured(scene, at, renderer, instrument):
     lights = tuple(light._replace(**more[light.kind.sampled]) for light in scene.lights)
     scene = scene._replace(lights=lights)
     bare = variants.lit_by(scene, lights)
-    number, seen = renderer.pixel(bare, *at, shows="object"), renderer.pixel(scene, *at)
+    number = renderer.pixel(variants.shape(scene), *at, shows="object")
+    seen = renderer.pixel(scene, *at)
     found = {"size_px": [*scene.size], "at_px": [*at], "object": None}
     found |= dict.fromkeys(OF_SURFACES)
     for name in QUANTITIES:
@@ -92,7 +94,7 @@ def measured(scene, at, renderer, instrument):
     number = round(number[0])
     one = scene.objects[number - 1]
     what = {"name": one.name, "mesh": one.mesh, "model": one.model.name}
-    V = _unit(renderer.pixel(bare, *at, shows="eye"))
+    V = _unit(renderer.pixel(variants.lit_by(scene, ()), *at, shows="eye"))
     point = _Point(bare, at, one, V, renderer, instrument)
     return {**found, "object": {"number": number, **what}, **_reading(point, seen)}
 
@@ -120,7 +122,8 @@ class _Point(NamedTuple):
 def _reading(point, seen):
     """Return the part of the dict that is about a surface, whose radiance is `seen`."""
     scene, model = point.scene, point.object.model
-    position, normal = (point.pixel(scene, shows) for shows in ("position", "normal"))
+    shape = variants.shape(scene)
+    position, normal = (point.pixel(shape, shows) for shows in ("position", "normal"))
     meshes = [geometry.load(one.mesh, crease=one.crease) for one in scene.objects]
     eye = layout.arrange(scene, meshes)[0].eye
     own = point.pixel(variants.lit_by(scene, ())) if "emitted" in model.defines else None
@@ -164,13 +167,17 @@ def _lit(point, number, own):
         albedo = reflectance.albedo(*point.material, angles, _azimuth(way))[0]
         found |= _weighted("f_rgb_1_sr", "f_1_sr", f) | _weighted("albedo_rgb", "albedo", albedo)
         exact = not light.kind.sampled
-    if point.object.model.covers("constant", point.object.values):
+    model, values = point.object.model, point.object.values
+    asked = reflectance.surroundings(model, values)
+    if model.transmits:
+        M, exact = None, False
+    elif model.covers("constant", values) and "environment" not in asked:
         M, exact = [math.pi * channel for channel in L], True
     else:
         if albedo is None:
             albedo = reflectance.mean(*point.material, light.kind.sampled)
         M = [e * float(a) for e, a in zip(E, albedo, strict=True)]
-        exact = exact and not point.object.model.transmits
+        exact = exact and len(asked) < 2  # which is seen through
     return {**found, **_quantity("exitance", M, efficacy), "exitance_exact": exact}
 
 
@@ -189,7 +196,9 @@ def _sum(name, lights, own):
     factor = math.pi if name == "exitance" else 1.0  # of a radiance that is alike all around
     for key, its in zip(_quantity(name, None), _quantity("emitted", None), strict=True):
         values = [light[key] for light in lights]
-        if key.endswith("_rgb"):
+        if None in values:
+            found[key] = None
+        elif key.endswith("_rgb"):
             values += [[factor * channel for channel in own[its]]] if own else []
             found[key] = [math.fsum(channel) for channel in zip(*values, strict=True)] or [0.0] * 3
         else:

@@ -62,7 +62,7 @@ def probe(options):
     from .renderer import Renderer
 
     at = meter.place(options.at, scene.size)
-    with Renderer() as renderer, measure.Instrument(renderer.context) as instrument:
+    with Renderer() as renderer, measure.Instrument() as instrument:
         found = meter.measured(scene, at, renderer, instrument)
     lang = scenefile.system_language() if scene.lang == "system" else scene.lang
     name = options.scene or "lumiar"

@@ -82,7 +82,7 @@ def seen(scene, view, renderer, where="", folder=""):
     one = variants.lit_by(scene._replace(samples=1), lights)
     surface = _surface(one, renderer)
     if view.name == "normal":
-        values = _drawn(one, renderer, "normal")
+        values = _drawn(variants.shape(one), renderer, "normal")
     elif view.name == "albedo":
         values = units.luminance(_drawn(variants.furnace(one), renderer)) / units.EFFICACY
         if variants.emits(one):
@@ -117,7 +117,7 @@ def _irradiance(scene, renderer, watts):
 
 def _surface(scene, renderer):
     """Return (height, width), whether an object is seen in the middle of each pixel."""
-    return _drawn(scene._replace(samples=1), renderer, "object")[..., 0] > 0.5
+    return _drawn(variants.shape(scene), renderer, "object")[..., 0] > 0.5
 
 
 def _drawn(scene, renderer, shows="radiance"):
