@@ -152,6 +152,16 @@ def test_a_mirror_sends_back_what_fresnel_says_though_no_image_of_a_point_is_dra
     assert found["luminance_cd_m2"] == 0.0
 
 
+def test_the_angle_of_a_light_with_an_extent_is_that_of_its_middle(probed):
+    corners = "a=1,2,0:b=2,2,0:c=1.5,3,1"
+    middles = {"sphere:position=1,2,1": (1, 2, 1), f"polygon:{corners}": (1.5, 7 / 3, 1 / 3)}
+    found = probed(lit(*middles, "sun:height=30"))
+    for light, middle in zip(found["lights"], middles.values(), strict=False):
+        angle = math.acos(cosine(found, np.subtract(middle, found["position_m"])))
+        assert light["theta_i_deg"] == pytest.approx(math.degrees(angle), abs=1e-3)
+    assert found["lights"][2]["theta_i_deg"] == pytest.approx(60.0, abs=1e-3)
+
+
 def test_what_loses_nothing_sends_out_all_that_arrives(probed):
     """The energy-preserving Oren-Nayar model with albedo 1: M = E under any light."""
     white = {"albedo": (1, 1, 1), "form": "energy_preserving", "roughness": 0.7}

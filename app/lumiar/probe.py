@@ -158,8 +158,9 @@ def _lit(point, number, own):
     found |= _quantity("radiance", L, efficacy) | _quantity("irradiance", E, efficacy)
     found |= dict.fromkeys(OF_DIRECTIONS)
     albedo, exact = None, light.kind.name in UNIFORM
-    if "light" in light.kind.defines and "environment" not in light.kind.defines:
-        way = _unit(point.pixel(alone, "toward"))
+    middle = variants.middle(light)
+    if middle:
+        way = _unit(point.pixel(variants.lit_by(point.scene, [middle]), "toward"))
         turn = math.degrees(_azimuth(way) - _azimuth(V))
         found |= {"theta_i_deg": _theta(way), "azimuth_deg": abs((turn + 180.0) % 360.0 - 180.0)}
         f = reflectance.bidirectional(*point.material, way, V)

@@ -1,5 +1,7 @@
 """Scenes made from a scene so that their radiance is another quantity of it."""
 
+import math
+
 from . import catalog, spectrum, units
 from .parts import Light
 
@@ -35,6 +37,31 @@ def furnace(scene, samples=SAMPLES):
     """
     kind = catalog.read("light", "furnace")
     return scene._replace(lights=(Light(kind, kind.defaults(), samples=samples),))
+
+
+def middle(light):
+    """Return a Light from one direction, that of a Light's middle; None where it is all around."""
+    values, sampled = light.values, light.kind.sampled
+    if "environment" in light.kind.defines:
+        return None
+    if light.kind.name == "sun":
+        from . import daylight
+
+        height, azimuth = (math.radians(values[key]) for key in ("height", "azimuth"))
+        return _plain("directional", direction=daylight.direction(height, azimuth))
+    if sampled and "position" in values:
+        return _plain("point", position=values["position"])
+    if light.kind.name == "polygon":
+        count = ("three", "four", "five", "six").index(values["corners"]) + 3
+        corners = [values[name] for name in "abcdef"[:count]]
+        mean = (sum(axis) / count for axis in zip(*corners, strict=True))
+        return _plain("point", position=tuple(mean))
+    return light
+
+
+def _plain(name, **values):
+    kind = catalog.read("light", name)
+    return Light(kind, {**kind.defaults(), **values})
 
 
 def emits(scene):
