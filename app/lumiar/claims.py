@@ -3,7 +3,7 @@
 TOLERANCE = {  # a claim is two-sided: within this wherever it is made, beyond it somewhere else
     "positive": 0.0,  # of a value (1/sr)
     "reciprocal": 1e-3,  # relative
-    "conserving": 1e-3,  # of an albedo
+    "conserving": 1e-4,  # of an albedo
     "constant": 1e-5,  # relative
 }
 FREE = ("constant",)  # what may be kept silent: it is no merit of a model, it only saves samples

@@ -169,13 +169,16 @@ class Examination:
         i = int(sums.argmax())
         most = float(sums[i])
         if most > 1.0 + TOLERANCE["conserving"] and self.model.covers("conserving", values):
-            finer, error = measure.albedo(
-                self.instrument, self.model, values, [angles[i]], turns[i], 16, self.both
-            )
+            for nodes in (8, 16):
+                finer, error = measure.albedo(
+                    self.instrument, self.model, values, [angles[i]], turns[i], nodes, self.both
+                )
+                if error[0] < TOLERANCE["conserving"] / 2.0:
+                    break
             if error[0] > RESOLVED:
                 return  # a ridge too narrow for the panels: nothing can be said
             most = float(finer.max() - error[0])
-        what = f"the albedo is {most:.4g} for light at {math.degrees(angles[i]):.4g} degrees"
+        what = f"the albedo is {most:.6g} for light at {math.degrees(angles[i]):.4g} degrees"
         self.findings.note("conserving", most - 1.0, values, what)
 
     def _furnace(self, index):

@@ -271,6 +271,7 @@ def plastic(L, V, kd, eta, alpha, distribution="ggx", shadowing="smith", **_):
     base = terms.T_dielectric(cosine(L), eta) * terms.T_dielectric(cosine(V), eta) * cosine(L)
     inside = terms.average_dielectric(1.0 / eta)
     diffuse = _color(kd) / (np.pi * eta**2 * (1.0 - _color(kd) * inside))
+    diffuse *= 1.0 - np.minimum(0.44 * alpha**2, 0.0032)  # what a rough coat reflects more
     return diffuse * base + _coat(L, V, eta, alpha, distribution, shadowing)
 
 

@@ -14,9 +14,10 @@ uniform int distribution = 0;            // {ggx, beckmann}: D, the facets' slop
 uniform int shadowing = 0;               // {smith, separable}: G, height-correlated or not
 
 // What the base sends out per irradiance that reaches it, past a coat of mean reflectance F inside.
+// Less what a rough coat reflects more than the smooth one of T below, at most: no light is made.
 vec3 base() {
     float inside = 1.0 - (1.0 - F_average_dielectric(eta)) / (eta * eta);
-    return kd / (eta * eta * (1.0 - kd * inside));
+    return kd * (1.0 - min(0.44 * alpha * alpha, 0.0032)) / (eta * eta * (1.0 - kd * inside));
 }
 
 vec3 scatter(vec3 L, vec3 V) {

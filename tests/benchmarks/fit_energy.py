@@ -1,6 +1,8 @@
 """Fit what one bounce loses, 1 - E(mu, alpha), to the rationals of glsl/lib/energy.glsl.
 
-python tests/benchmarks/fit_energy.py prints the coefficients and the errors they leave; 30 seconds.
+python tests/benchmarks/fit_energy.py prints the coefficients and the errors they leave; a minute.
+The fit aims LOWER than the truth, and at an average that is MORE, so that no light is made: what is
+given back is never more than what was lost, up to 1e-4.
 Truth: E(mu) = int D_visible(m) G2/G1 dm (E. Heitz, 2014) over the slopes of the facets. Those that
 reflect above the surface form a disc, r < t cos(phi) + sqrt(1 + t^2 cos^2(phi)), t = tan(theta):
 with t cos(phi) = sinh(w) it is r < exp(w), which Gauss-Legendre resolves to 1e-9.
@@ -12,6 +14,7 @@ import sys
 import numpy as np
 
 erf = np.vectorize(math.erf, otypes=[float])
+LOWER, MORE = {"ggx": 1e-4, "beckmann": 3.2e-4}, 6e-5
 
 
 def smith(kind, c, alpha):
@@ -149,17 +152,18 @@ def main(kind):
         (-a * mu * np.log(y), y * z * (1 - a), a) if kind == "ggx" else (0, y * z * z, a * a)
     )
     B = np.array([z**i * v**j for i, j in PAIRS]).T
-    c = minimax(B * pre[:, None], B[:, 1:], d - base)
+    c = minimax(B * pre[:, None], B[:, 1:], d - LOWER[kind] - base)
     x = np.unique(np.r_[np.geomspace(1e-3, 1, 150), np.linspace(0.01, 1, 100)])
     avg = np.array([average(lambda m, k=k: fitted(kind, c, m, k, np.float64), k, 400) for k in x])
     t = np.sqrt(x) if kind == "ggx" else x * x
-    P = np.array([t**i for i in range(7 if kind == "ggx" else 9)]).T
+    P = np.array([t**i for i in range(7)]).T
     g = minimax(P * ((x if kind == "ggx" else x * x) / avg)[:, None], P[:, 1:5], np.ones(len(x)))
+    g = g[0] * (1.0 + MORE), g[1]
     for name, k in zip(
         ("deficit p", "deficit q", "average p", "average q"), (*c, *g), strict=False
     ):
         print(kind, name, ", ".join(f"{s:.9g}" for s in k))
-    worst, F = np.zeros(4), np.float32  # verify on other points, in float32
+    worst, F = np.zeros(5), np.float32  # verify on other points, in float32
     where = None
     for k in np.unique(np.r_[np.geomspace(1e-3, 1, 31), np.linspace(0.0317, 1, 30)]):
         m = np.r_[mus(k * 0.93), np.linspace(0.01, 1, 34), 1e-6]
@@ -169,19 +173,18 @@ def main(kind):
             fitted_average(kind, g, k, F),
             average(lambda s, k=k: fitted(kind, c, s, k, np.float64), k, 400),
         )
-        W = abs(e * (want / ga) - t)
-        now = np.array(
-            [abs(e - t).max(), abs(ga / want - 1), W.max(), -min(e.min(), 1 - e.max(), ga)]
-        )
+        W = e * (want / ga) - t
+        out = -min(e.min(), 1 - e.max(), ga)
+        now = np.array([abs(e - t).max(), abs(ga / want - 1), W.max(), -W.min(), out])
         if W.max() > worst[2]:
             where = m[W.argmax()], k
         worst = np.maximum(worst, now)
     print(
         kind,
-        "float32: |deficit| {:.2e}, average rel {:.2e}, furnace {:.2e}".format(*tuple(worst[:3])),
-        "at mu, alpha",
+        "float32: |deficit| {:.2e}, average rel {:.2e}, furnace +{:.2e} -{:.2e}".format(*worst[:4]),
+        "most at mu, alpha",
         where,
-        "out of range" if worst[3] > 0 else "in [0,1]",
+        "out of range" if worst[4] > 0 else "in [0,1]",
     )
     return c, g
 
