@@ -71,7 +71,9 @@ def _page(scene, view, cells):
         ruler = scale.fitting(good)
         pictures = [scale.colours(found.values, ruler, found.surface) for found in every]
         if view.name == "error":
-            what = ", ".join(f"{key}\u00a0=\u00a0{os.path.basename(value)}" for key, value in view.pairs)
+            what = ", ".join(
+                f"{key}\u00a0=\u00a0{os.path.basename(value)}" for key, value in view.pairs
+            )
             rms = float(np.sqrt(np.mean(np.square(good, dtype=np.float64)))) if good.size else 0.0
             said |= {"what": what[:TITLE], "rms": rms}
         said["log"] = words["log"] if ruler.log else ""
