@@ -113,8 +113,8 @@ def patch(point, normal, target, samples, seed):
             factors.form_factor(point, normal, target),
         ),
         "nusselt": estimates.nusselt(point, normal, target),
-        "monte_carlo_rays": estimates.rays(point, normal, target, samples, (seed, 0)),
-        "monte_carlo_points": estimates.points(point, normal, target, samples, (seed, 1)),
+        "monte_carlo_rays": estimates.rays(point, normal, target, samples, (seed, 1)),
+        "monte_carlo_points": estimates.points(point, normal, target, samples, (seed, 2)),
     }
     values = {
         key: {way: found[i] for way, found in ways.items()}
@@ -215,7 +215,7 @@ def _numbers(vector):
 def _ending(found):
     facts = found.facts
     yield "errors: of Monte Carlo one standard error (without a hit: what 95 % confidence leaves);"
-    yield "of Nusselt's, that of polylines in place of arcs; of the closed form, estimated rounding"
+    yield "of Nusselt's, what fewer points would change; of the closed form, estimated rounding"
     if "illuminance_of_1_cd_m2" in facts:
         lux = facts["illuminance_of_1_cd_m2"]
         yield f"the patch receives pi F = {lux:.7g} lx of a luminance of 1 cd/m², F lx of 1 lm/m²"

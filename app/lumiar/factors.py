@@ -12,7 +12,8 @@ EPS = np.finfo(float).eps
 APART = 1.5  # how many of its radii a polygon is away where a rule without grading suffices
 ORDERS = (16, 12)  # of the rules whose difference is the error
 ACCURACY = 1e-14  # of a contour integral, relative, as far as rounding allows
-HALVINGS = 50
+ROUND = 12  # corners from which they are too blunt to crowd points there
+HALVINGS, MOST = 50, 1 << 16  # of an interval of a contour; intervals at a time
 LEVEL = 1e-9  # of its size, what a polygon may reach below a plane and still be on one side of it
 
 
@@ -53,11 +54,16 @@ def inside(points, polygon):
     """Return which of points (m, 3) in a polygon's plane lie in it: an odd number of crossings."""
     drop = np.abs(plane(polygon)[0]).argmax()
     x, y = np.delete(points, drop, axis=1).T
-    found = np.zeros(len(points), bool)
+    order = np.argsort(y)
+    x, y = x[order], y[order]
+    crossed = np.zeros(len(points), bool)
     flat = np.delete(polygon, drop, axis=1)
     for (ax, ay), (bx, by) in zip(flat, np.roll(flat, 1, axis=0), strict=True):
         if ay != by:
-            found ^= ((ay > y) != (by > y)) & (x < ax + (y - ay) * ((bx - ax) / (by - ay)))
+            beside = slice(*np.searchsorted(y, sorted((ay, by))))
+            crossed[beside] ^= x[beside] < ax + (y[beside] - ay) * ((bx - ax) / (by - ay))
+    found = np.empty_like(crossed)
+    found[order] = crossed
     return found
 
 
@@ -177,8 +183,9 @@ def seen(one, other):
     The parts are both (0, 3) where one is.
     """
     front, far = facing(one, other)[0], facing(other, one)[0]
+    level = np.abs((other - one[0]) @ front).max() <= LEVEL * np.ptp(other, axis=0).max()
     one, other = clipped(one, other[0], far), clipped(other, one[0], front)
-    if not len(one) or not len(other):
+    if level or not len(one) or not len(other):
         one, other = one[:0], other[:0]
     return one, other, front, far
 
@@ -188,7 +195,11 @@ def _apart(one, other):
     return distance(middle, other) > (1 + APART) * np.linalg.norm(one - middle, axis=1).max()
 
 
-def cubature(polygon, order, grade=lambda t: (t, 1.0 + 0.0 * t)):
+def _even(t):
+    return t, 1.0
+
+
+def cubature(polygon, order, grade=_even):
     """Return points (k, 3) and signed weights (k,) of a rule that integrates over a polygon.
 
     Gauss and Legendre's over triangles from its middle to its edges; grade maps t in (0, 1) to
@@ -196,7 +207,8 @@ def cubature(polygon, order, grade=lambda t: (t, 1.0 + 0.0 * t)):
     """
     normal, _ = plane(polygon)
     u, wu = _gauss(order, grade)
-    v, wv = _gauss(2 + math.ceil(order * min(1.0, 6.0 / len(polygon))), grade)
+    slices = max(2 + order // 8, math.ceil(order * min(1.0, 6.0 / len(polygon))))
+    v, wv = _gauss(slices, grade if len(polygon) <= ROUND else _even)
     middle = polygon.mean(axis=0)
     a, b = polygon - middle, np.roll(polygon, -1, axis=0) - middle
     side = a[:, None] + v[:, None] * (b - a)[:, None]
@@ -236,7 +248,7 @@ def _contour(one, other):
         off, rounding = np.abs(value - rough), 4.0 * EPS * size
         target = ACCURACY * abs(total + value.sum())
         done = off <= np.maximum(target, rounding)
-        if level == HALVINGS - 1:
+        if level == HALVINGS - 1 or len(a) > MOST:
             done[:] = True
         total, error = total + value[done].sum(), error + off[done].sum()
         noise += rounding[done].sum()
@@ -249,7 +261,7 @@ def _contour(one, other):
 
 def _rule(a, b, other, order):
     """Return the integral (k,) from a to b (k, 3) of ln r ds.ds2 around a polygon, and its size."""
-    x, w = _gauss(order, lambda t: (t, 1.0))
+    x, w = _gauss(order, _even)
     p = a[:, None] + x[:, None] * (b - a)[:, None]
     total, size = np.zeros(p.shape[:2]), np.zeros(p.shape[:2])
     for start, end in zip(other, np.roll(other, -1, axis=0), strict=True):
@@ -257,9 +269,10 @@ def _rule(a, b, other, order):
         t = (end - start) / length
         beside = np.linalg.norm(np.cross(p - start, t), axis=2)
         low = (start - p) @ t
-        inner = _antiderivative(low + length, beside) - _antiderivative(low, beside)
-        part = ((b - a) @ t)[:, None] * inner
-        total, size = total + part, size + np.abs(part)
+        high, low = _antiderivative(low + length, beside), _antiderivative(low, beside)
+        along = ((b - a) @ t)[:, None]
+        total = total + along * (high - low)
+        size = size + np.abs(along) * (np.abs(high) + np.abs(low) + length)
     return total @ w, size @ w
 
 
