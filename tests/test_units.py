@@ -116,7 +116,9 @@ def test_a_uniform_surrounding_gives_pi_times_its_radiance():
     assert math.pi * units.luminance(rgb) == pytest.approx(1000.0)
 
 
-@pytest.mark.parametrize("kind", ["point", "spot", "directional", "ambient"])
+@pytest.mark.parametrize(
+    "kind", ["point", "spot", "directional", "ambient", "sphere", "disk", "quad", "polygon"]
+)
 def test_a_shipped_light_may_be_given_in_its_own_unit_first(kind):
     shader = catalog.read("light", kind)
     native = next(p.unit for p in shader.parameters if p.tinted)

@@ -6,7 +6,7 @@
 #include "lib/spectrum.glsl"
 #include "lib/sampling.glsl"
 
-uniform float temperature = 5778.0;  // [500, 20000 ..] log: T, the Sun's to begin with (K)
+uniform float temperature = 1200.0;  // [500, 20000 ..] log: T (K)
 uniform float emissivity = 1.0;      // [0, 1]: share of a black body's radiance that it emits (unitless)
 uniform int wavelengths = 95;        // [4, 95]: how many are added up (unitless)
 uniform int observer = 0;            // {table, fit}: the CIE's table of 1931, or Wyman's lobes of 2013
