@@ -43,7 +43,6 @@ class OnCard:
     def __init__(self, context=None):
         self.context = context or open_context()
         self._owns_context = context is None
-        self._idle = None
 
     def __enter__(self):
         return self
@@ -57,10 +56,10 @@ class OnCard:
             return
         with self.context:
             self._free()
-            if self._idle:
-                (attachment,) = self._idle.color_attachments
+            if self._owns_context and (idle := self.context.extra):
+                (attachment,) = idle.color_attachments
                 attachment.release()
-                self._idle.release()
+                idle.release()
         if self._owns_context:
             self.context.release()
         self.context = None
@@ -70,8 +69,9 @@ class OnCard:
 
     def _free_framebuffer(self, framebuffer):
         """Free a framebuffer and what is attached to it; one that goes while bound is an error."""
-        self._idle = self._idle or self.context.framebuffer([self.context.renderbuffer((1, 1))])
-        self._idle.use()
+        context = self.context  # who shares it shares the idle one, which stays bound
+        context.extra = context.extra or context.framebuffer([context.renderbuffer((1, 1))])
+        context.extra.use()
         for attachment in (*framebuffer.color_attachments, framebuffer.depth_attachment):
             if attachment:
                 attachment.release()
