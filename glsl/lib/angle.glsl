@@ -10,3 +10,17 @@ float angle_of(float y, float x) {
     float angle = t + t * series + (wide ? 0.785398163 : 0.0);
     return y > x ? 1.57079633 - angle : angle;
 }
+
+// The angle between two directions, from y: |cross product| and x: dot product, times anything positive.
+// y: [0, inf); 0 if both are 0; [0, pi]
+float angle_between(float y, float x) {
+    float angle = angle_of(y, max(abs(x), 1e-37));
+    return x < 0.0 ? 3.14159265 - angle : angle;
+}
+
+// The azimuth of the point (x, y), as atan(y, x) but 3 ulp.
+// 0 if both are 0; [-pi, pi]
+float azimuth(float y, float x) {
+    float angle = angle_between(abs(y), x);
+    return y < 0.0 ? -angle : angle;
+}

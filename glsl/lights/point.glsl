@@ -9,3 +9,7 @@ Incident light(vec3 place, vec2 u) {
     float square = max(dot(toward, toward), 1e-12);  // a micrometre: a point on the light itself
     return Incident(toward * inversesqrt(square), intensity / square);
 }
+
+float reach(vec3 place, vec3 direction) {
+    return distance(place, position);
+}

@@ -20,3 +20,7 @@ Incident light(vec3 place, vec2 u) {
     float t = clamp((edge - 0.5 * dot(off, off)) / width, 0.0, 1.0);
     return Incident(L, intensity * (t * t * (3.0 - 2.0 * t) / square));
 }
+
+float reach(vec3 place, vec3 direction) {
+    return distance(place, position);
+}

@@ -1,0 +1,76 @@
+// light   Sphere: a ball of uniform radiance
+// paper   J. Snyder, "Area light sources for real-time graphics", Microsoft Research, 1996
+// sampled  by solid angle, uniform
+// note    irradiance within 1e-5 from radius / distance 1e-4 up; inside, it surrounds: irradiance pi L
+#include "lib/light.glsl"
+#include "lib/cap.glsl"
+
+uniform vec3 position = vec3(0.0, 3.0, 0.0);  // [.. -10, 10 ..]: its centre (m)
+uniform float radius = 0.5;                   // [0, 5 ..]: of the ball (m)
+uniform vec3 radiance = vec3(10.0);           // [0, 100 ..] tinted: L, the same in all directions (W m^-2 sr^-1)
+
+// Its centre from a place: unit direction and distance; and sine and cosine of the angle it is seen under.
+void sphere_seen(vec3 place, out vec4 centre, out vec2 cap) {
+    vec3 toward = position - place;
+    float range = max(length(toward), 1e-18), sine = min(radius / range, 1.0);
+    centre = vec4(fan_unit(toward), range);
+    cap = vec2(sine, sqrt((1.0 - sine) * (1.0 + sine)));
+}
+
+bool sphere_around(vec4 centre) {
+    return centre.w < radius;
+}
+
+// 1 - cos of the angle within which its directions lie: 2 all around.
+float sphere_width(vec4 centre, vec2 cap) {
+    return sphere_around(centre) ? 2.0 : cap.x * cap.x / (1.0 + cap.y);
+}
+
+Incident light(vec3 place, vec2 u) {
+    vec4 centre;
+    vec2 cap;
+    sphere_seen(place, centre, cap);
+    float width = sphere_width(centre, cap), off = u.x * width, phi = 2.0 * PI * u.y;
+    float s = sqrt(off * (2.0 - off));
+    vec3 c = centre.xyz;
+    float side = c.z < 0.0 ? -1.0 : 1.0, k = -1.0 / (side + c.z), b = c.x * c.y * k;  // T. Duff et al., 2017
+    vec3 x = vec3(1.0 + side * c.x * c.x * k, side * b, -side * c.x), y = vec3(b, side + c.y * c.y * k, -c.y);
+    vec3 L = c * (1.0 - off) + s * (cos(phi) * x + sin(phi) * y);
+    return Incident(L, radiance * (2.0 * PI * width));
+}
+
+vec3 irradiance(vec3 place, vec3 normal) {
+    vec4 centre;
+    vec2 cap;
+    sphere_seen(place, centre, cap);
+    if (sphere_around(centre)) return radiance * PI;
+    return radiance * cap_irradiance(cap.x, cap.y, clamp(dot(normal, centre.xyz), -1.0, 1.0));
+}
+
+// Whether a direction meets it, and at which distance.
+bool sphere_met(vec3 place, vec3 direction, out float far) {
+    vec3 toward = position - place, across = cross(toward, direction);
+    float along = dot(toward, direction), square = radius * radius - dot(across, across);
+    bool around = dot(toward, toward) < radius * radius;
+    far = along + (around ? 1.0 : -1.0) * sqrt(max(square, 0.0));
+    return around || (square >= 0.0 && along > 0.0);
+}
+
+vec3 arriving(vec3 place, vec3 direction) {
+    float far;
+    return sphere_met(place, direction, far) ? radiance : vec3(0.0);
+}
+
+float density(vec3 place, vec3 direction) {
+    vec4 centre;
+    vec2 cap;
+    sphere_seen(place, centre, cap);
+    float far;
+    return sphere_met(place, direction, far) ? 1.0 / (2.0 * PI * max(sphere_width(centre, cap), 1e-37)) : 0.0;
+}
+
+float reach(vec3 place, vec3 direction) {
+    float far;
+    bool met = sphere_met(place, direction, far);
+    return far;
+}
