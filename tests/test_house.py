@@ -17,7 +17,7 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "difference contract image sheet gonio captions spectrum claims arguments factors scale occluders",
     "catalog mesh reference_energy tables panels units estimates card legend readout",
     "formats shapes plots factor_table reference flatten daylight",
-    "geometry compose parts materials surroundings",
+    "geometry compose parts materials hemisphere surroundings",
     "settings layout content variants",
     "scenefile stock",
     "scene",

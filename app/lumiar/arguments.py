@@ -188,6 +188,9 @@ def _formfactor(parser):
     parser.add_argument("--samples", type=_count, default=10**6, metavar="N", help=text)
     parser.add_argument("--seed", type=_seed, default=0, metavar="N", help="of it (default: 0)")
     parser.add_argument("--json", action="store_true", help="for programs")
+    text = "a drawing of Nusselt's projection: .png, .svg or .pdf"
+    parser.add_argument("-o", "--output", metavar="FILE", help=text)
+    parser.add_argument("--lang", choices=("en", "pt"), help="language of the drawing")
     _timeout(parser)
 
 

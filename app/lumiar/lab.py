@@ -8,6 +8,7 @@ from .errors import Mistake
 from .supervise import limit_time
 from .verbs import check_folder
 
+PICTURES = ".png, .svg or .pdf"
 AUDIT_TIME = 900.0  # seconds: every model there is takes about a minute
 
 
@@ -141,15 +142,13 @@ def _check_measure(options):
             raise Mistake(f"{options.out}: would replace the directions; write to another file")
     if options.overlay and not options.plot:
         raise Mistake("--overlay: draws into a picture; add --plot lobes.png")
-    for path, endings in ((options.out, ".csv or .npz"), (options.plot, ".png, .svg or .pdf")):
-        if path:
-            if not _ending(path) or _ending(path) not in endings.replace(",", "").split():
-                raise Mistake(f"{path}: ends in {endings}; write one of these")
-            check_folder(path)
+    _check_file(options.out, ".csv or .npz")
+    _check_file(options.plot, PICTURES)
 
 
 def formfactor(options):
     """Print solid angles and form factors of a patch or a polygon to a polygon, by every way."""
+    _check_file(options.output, PICTURES)
     if options.timeout:
         limit_time(options.timeout)
     from . import factor_table as table
@@ -161,10 +160,25 @@ def formfactor(options):
         found = table.patch(here[0], normal, target, *chance)
     elif options.normal:
         raise Mistake("--normal: a polygon has its own; leave it out, or give --from one point")
+    elif options.output:
+        raise Mistake("--output: Nusselt's projection is a patch's; give --from one point")
     else:
         found = table.polygons(table.polygon(here, "--from"), target, *chance)
     print(table.as_json(found) if options.json else table.as_text(found))
+    if options.output:
+        from . import files, hemisphere
+        from .scenefile import system_language
+
+        lang, ending = options.lang or system_language(), _ending(options.output)
+        files.write_whole(options.output, [hemisphere.picture(found, target, lang, ending)])
     return 0
+
+
+def _check_file(path, endings):
+    if path:
+        if not _ending(path) or _ending(path) not in endings.replace(",", "").split():
+            raise Mistake(f"{path}: ends in {endings}; write one of these")
+        check_folder(path)
 
 
 def _ending(path):

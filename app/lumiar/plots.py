@@ -18,7 +18,7 @@ from .errors import one_line
 from .files import ASSETS, cache_folder
 from .panels import Albedo, Curve, Lobe
 
-__all__ = ["ENDINGS", "Albedo", "Curve", "Lobe", "Sheet", "data_sheet", "measurement"]
+__all__ = ["ENDINGS", "Albedo", "Curve", "Lobe", "Sheet", "data_sheet", "drawn", "measurement"]
 ENDINGS = (".png", ".svg", ".pdf")
 STYLE = {
     "font.family": "DejaVu Sans",
@@ -74,7 +74,7 @@ def measurement(title, subtitle, curves, points, albedos, lobes, lang, ending):
             panels.lobes(axes, lobes, scale, labels, words)
         _legend(figure, look, words)
 
-    return _drawn(draw, (16.0, 10.5), ending)
+    return drawn(draw, (16.0, 10.5), ending)
 
 
 def data_sheet(sheet, picture_pixels, size, lang):
@@ -102,7 +102,7 @@ def data_sheet(sheet, picture_pixels, size, lang):
         _numbers(figure.add_subplot(grid[1, 2]), sheet.numbers, words)
         _legend(figure, look, words)
 
-    return _drawn(draw, (20.0, 11.25), ".png")
+    return drawn(draw, (20.0, 11.25), ".png")
 
 
 def _under(figure, text, width=130):
@@ -166,7 +166,7 @@ def _numbers(axes, numbers, words):
             axes.text(x, 0.93 - i * step, one_line(text, 40), ha=side, fontsize=min(14, 300 * step))
 
 
-def _drawn(draw, inches, ending):
+def drawn(draw, inches, ending):
     """Return the bytes of a figure that `draw` fills, the same wherever it is drawn."""
     os.environ.setdefault("MPLCONFIGDIR", os.path.join(cache_folder(), "matplotlib"))
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # such as that a cache is being made
