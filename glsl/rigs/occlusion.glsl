@@ -47,37 +47,63 @@ bool rig_cuts(int triangle, vec3 origin, vec3 x, vec3 y, vec3 direction, float f
     return (least >= -slack || most <= slack) && height > blur && height + blur < far * abs(slope);
 }
 
-// Whether a triangle cuts the ray from origin in a unit direction before it has gone as far.
+// A ray on its way through the nodes, which lie depth first: what is missed is skipped.
+struct rig_Walk {
+    int node, end;       // the next node; where they end
+    int triangle, stop;  // the next of a leaf's triangles; where they end
+};
+
+// Takes one more node, unless triangles wait.
+void rig_step(inout rig_Walk walk, vec3 origin, vec3 inverse, float far) {
+    if (walk.node >= walk.end || walk.triangle < walk.stop) return;
+    vec4 low = rig_texel(rig_nodes, 2 * walk.node), high = rig_texel(rig_nodes, 2 * walk.node + 1);
+    bool entered = rig_enters(low.xyz, high.xyz, origin, inverse, far), leaf = high.w > 0.0;
+    walk.node = entered || leaf ? walk.node + 1 : int(low.w);
+    if (entered && leaf) {
+        walk.triangle = int(low.w);
+        walk.stop = walk.triangle + int(high.w);
+    }
+}
+
+// Whether a triangle cuts the ray from origin in a unit direction before it has gone as far. Four
+// nodes for each triangle keep rays side by side in step, and loops short (see rigs/loops.glsl).
 bool rig_hidden(vec3 origin, vec3 direction, float far) {
     vec3 inverse = vec3(rig_inverse(direction.x), rig_inverse(direction.y), rig_inverse(direction.z));
     bool level = abs(direction.x) > abs(direction.z);
     vec3 x = level ? vec3(-direction.y, direction.x, 0.0) : vec3(0.0, -direction.z, direction.y);
     x = normalize(x);
     vec3 y = cross(direction, x);
-    int node = 0, end = int(rig_texel(rig_nodes, 0).w), triangle = 0, stop = 0;
-    while (node < end) {
-        while (node < end && triangle == stop) {
-            vec4 low = rig_texel(rig_nodes, 2 * node), high = rig_texel(rig_nodes, 2 * node + 1);
-            bool entered = rig_enters(low.xyz, high.xyz, origin, inverse, far), leaf = high.w > 0.0;
-            node = entered || leaf ? node + 1 : int(low.w);
-            if (entered && leaf) {
-                triangle = int(low.w);
-                stop = triangle + int(high.w);
-            }
-        }
-        while (triangle < stop) {
-            if (rig_cuts(triangle, origin, x, y, direction, far)) return true;
-            triangle += 1;
+    rig_Walk walk = rig_Walk(0, int(rig_texel(rig_nodes, 0).w), 0, 0);
+    while (walk.node < walk.end || walk.triangle < walk.stop) {
+        rig_step(walk, origin, inverse, far);
+        rig_step(walk, origin, inverse, far);
+        rig_step(walk, origin, inverse, far);
+        rig_step(walk, origin, inverse, far);
+        if (walk.triangle < walk.stop) {
+            if (rig_cuts(walk.triangle, origin, x, y, direction, far)) return true;
+            ++walk.triangle;
         }
     }
     return false;
 }
 
-// Where a shadow ray leaves a surface: off its plane by more than the error of an interpolated
-// position, which is large where a small triangle is seen edge-on (as C. Wächter and N. Binder, Ray
-// Tracing Gems, 2019, ch. 6, but in proportion to the scene). ground is the face's normal on the side
-// of the ray.
+// Where a shadow ray leaves a face: off its plane by more than the error of an interpolated position,
+// which is large where a small triangle is seen edge-on (as C. Wächter and N. Binder, Ray Tracing
+// Gems, 2019, ch. 6, but in proportion to the scene). ground is the face's normal on the ray's side.
 vec3 rig_lifted(vec3 position, vec3 ground, vec3 direction) {
-    float scene = max(rig_largest(rig_texel(rig_nodes, 0).xyz), rig_largest(rig_texel(rig_nodes, 1).xyz));
+    vec3 low = rig_texel(rig_nodes, 0).xyz, high = rig_texel(rig_nodes, 1).xyz;
+    float scene = max(rig_largest(low), rig_largest(high));
     return position + ground * (256.0 * RIG_ROUND * max(rig_largest(position), scene / 64.0));
+}
+
+// How far above a point of a face the surface lies that interpolated normals speak of. A ray from
+// there, on the side of the normals, meets no facets where a smooth surface has none: the terminator
+// follows the normals instead of the mesh (J. Hanika, "Hacking the shadow terminator", Ray Tracing
+// Gems II, 2021, ch. 4: the point is projected on the tangent planes of the three corners and these
+// are blended). square, mixed and rise are interpolated from rig_normal * rig_normal, the products
+// of two of its components, and rig_normal * dot(rig_normal, rig_position) at the corners.
+vec3 rig_bulge(vec3 position, vec3 square, vec3 mixed, vec3 rise, vec3 ground) {
+    vec3 below = square * position + mixed.zxy * position.yzx + mixed.yzx * position.zxy;
+    vec3 bulge = rise - below;
+    return dot(bulge, ground) > 0.0 ? bulge : vec3(0.0);
 }
