@@ -107,7 +107,8 @@ def test_the_reference_compiler_takes_what_is_measured(model, tmp_path):
 def test_the_reference_compiler_takes_the_screen(tmp_path):
     tones, targets = ("none", "reinhard", "aces"), ("display", "linear")
     constants = [{"side": 2, "tone": tone, "target": t} for tone in tones for t in targets]
-    glslang([compose.screen("present", each) for each in constants], tmp_path)
+    programs = [compose.screen("present", each) for each in constants]
+    glslang([*programs, compose.screen("factor", {})], tmp_path)
 
 
 def glslang(programs, folder):

@@ -9,7 +9,7 @@ import math
 import numpy as np
 import pytest
 
-from lumiar import estimates, factors
+from lumiar import estimates, factor_card, factors
 
 ORIGIN, UP = np.zeros(3), np.array([0.0, 0.0, 1.0])
 SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
@@ -224,6 +224,21 @@ def test_monte_carlo_errs_by_one_over_the_root_and_tells_so():
         told[count] = np.mean([error for _, error in found])
         assert off[count] == pytest.approx(told[count], rel=0.35)
     assert told[100] / told[10_000] == pytest.approx(10.0, rel=0.1)
+
+
+@pytest.mark.parametrize("distance", [0.05, 1.0, 10.0])
+@pytest.mark.parametrize("side", [2.0, 1e-2, 1e-4])
+def test_the_card_keeps_five_digits_at_any_size(side, distance, renderer):
+    """Above, partly below the horizon, and of corners too many or concave for one polygon there."""
+    move = turned(4)
+    wall = moved(np.roll(centred(side, 0), 1, axis=1), distance, 0, 0.2 * side)
+    shapes = [(UP, centred(side, distance)), (UP, wall), (UP, disk(side / 2, distance, 8))]
+    shapes += [
+        (np.array([0.6, 0, 0.8]), moved(LETTER_L - UP, -1, -1, 0) * side / 2 + distance * UP)
+    ]
+    for normal, polygon in shapes:
+        found = factor_card.evaluated(renderer.context, move(polygon), move(normal))
+        assert found[::-1] == pytest.approx(closed(ORIGIN, normal, polygon), rel=1e-5)
 
 
 def test_where_no_ray_hits_the_error_is_what_may_have_been_missed():

@@ -21,6 +21,7 @@ def test_the_verb_tells_it_all_to_programs(capsys):
     told = json.loads(capsys.readouterr().out)
     assert len(told["to"]["corners"]) == 4  # the first one closed it
     assert told["F"]["closed_form"]["value"] == pytest.approx(0.23945647046077354, rel=1e-14)
+    assert abs(told["F"]["closed_form_float32"]["relative"]) < 1e-6
     assert told["omega"]["nusselt"]["relative"] == pytest.approx(0.0, abs=1e-7)
     assert told["illuminance_of_1_cd_m2"] == pytest.approx(math.pi * 0.23945647046077354)
     both = [*command, "0,0,0 1,0,0 1,1,0 0,1,0", "--to", "0,0,0 1,0,0 1,0,2 0,0,2"]

@@ -18,7 +18,7 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "catalog mesh reference_energy tables panels units estimates card legend readout",
     "formats shapes plots factor_table reference flatten daylight",
     "geometry compose parts materials hemisphere surroundings",
-    "settings layout content variants",
+    "settings factor_card layout content variants",
     "scenefile stock",
     "scene",
     "renderer report",

@@ -15,6 +15,7 @@ EMPTY = 1e-10  # area over size squared from which a polygon is none
 FAR = 1e9  # m
 NAMES = {
     "closed_form": "closed form",
+    "closed_form_float32": "closed form, float32 on the card",
     "nusselt": "Nusselt's projection",
     "monte_carlo_rays": "Monte Carlo, {} rays",
     "monte_carlo_points": "Monte Carlo, {} points",

@@ -151,13 +151,14 @@ def formfactor(options):
     _check_file(options.output, PICTURES)
     if options.timeout:
         limit_time(options.timeout)
+    from . import factor_card
     from . import factor_table as table
 
     here, there = table.corners(options.here, "--from"), table.corners(options.there, "--to")
     target, chance = table.polygon(there, "--to"), (options.samples, options.seed)
     if len(here) == 1:
         normal = table.vector(options.normal or "0,0,1", "--normal")
-        found = table.patch(here[0], normal, target, *chance)
+        found = factor_card.with_card(table.patch(here[0], normal, target, *chance), target)
     elif options.normal:
         raise Mistake("--normal: a polygon has its own; leave it out, or give --from one point")
     elif options.output:
