@@ -43,28 +43,36 @@ def build(triangles):
     bounding volume hierarchy construction", 2018; the surface area heuristic then chooses the
     leaves. Raises Mistake for more than the textures hold.
     """
-    p = np.asarray(triangles, np.float32).reshape(-1, 3, 3)
-    p = p[np.isfinite(p).all(axis=(1, 2))]
-    wide = p.astype(np.float64)
-    e1, e2 = wide[:, 1] - wide[:, 0], wide[:, 2] - wide[:, 0]
-    normals = np.cross(e1, e2)
-    area = np.linalg.norm(normals, axis=1)
-    kept = area > 1e-13 * ((e1 * e1).sum(1) + (e2 * e2).sum(1))
-    p, normals = p[kept], normals[kept] / area[kept, None]
+    p = np.asarray(triangles, np.float32).reshape(-1, 3, 3).transpose(1, 2, 0)
+    p, normals = _solid(np.ascontiguousarray(p))
+    n = p.shape[2]
     most = WIDTH * ROWS // 3
-    if len(p) > most:
-        raise Mistake(f"shadows = true with {len(p)} triangles in the scene; allowed: up to {most}")
-    if not len(p):
+    if n > most:
+        raise Mistake(f"shadows = true with {n} triangles in the scene; allowed: up to {most}")
+    if not n:
         return Occluders(_texels(_empty()), _texels(np.zeros((1, 4), np.float32)), 0)
-    low, high = p.min(axis=1).T, p.max(axis=1).T
+    low, high = p.min(axis=0), p.max(axis=0)
     order = np.argsort(_morton(low, high), kind="stable")
-    low, high = np.ascontiguousarray(low[:, order]), np.ascontiguousarray(high[:, order])
     with np.errstate(over="ignore"):  # of areas: clusters then join in order
-        nodes, places = _laid_out(*_cluster(low, high))
-    corners = np.empty((len(p), 3, 4), np.float32)
-    corners[places, :, :3] = p[order]
-    corners[places, :, 3] = normals[order]
-    return Occluders(_texels(nodes), _texels(corners), len(p))
+        nodes, places = _laid_out(*_cluster(low[:, order], high[:, order]))
+    where = np.empty(n, np.int64)
+    where[places] = order
+    corners = np.empty((n, 3, 4), np.float32)
+    corners[:, :, :3] = p[:, :, where].transpose(2, 0, 1)
+    corners[:, :, 3] = normals[:, where].T
+    return Occluders(_texels(nodes), _texels(corners), n)
+
+
+def _solid(p):
+    """Return those of triangles (corner, axis, n) that have an area, and their unit normals."""
+    with np.errstate(invalid="ignore", over="ignore"):
+        a, b = p[1:].astype(np.float64) - p[0]
+        x = a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+        normals, area = np.stack(x), np.sqrt(x[0] ** 2 + x[1] ** 2 + x[2] ** 2)
+        kept = area > 1e-13 * ((a * a).sum(0) + (b * b).sum(0))
+    if not kept.all():
+        p, normals, area = p[:, :, kept], normals[:, kept], area[kept]
+    return p, (normals / area).astype(np.float32)
 
 
 def _texels(values):
