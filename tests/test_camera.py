@@ -88,6 +88,15 @@ def test_a_sphere_is_framed_whole(elevation, aspect):
     assert 0.0 < near <= math.dist(eye, target) - 0.7 and far >= math.dist(eye, target) + 0.7
 
 
+def test_the_near_plane_stands_before_what_is_off_the_middle():
+    """Depth is along the view: a sphere beside it is nearer by that than its distance says."""
+    aside = [((-3.0, 0.0, 0.0), 1.0), ((3.0, 0.0, 0.0), 1.0)]
+    near, far = camera.clip_planes((0.0, 0.0, 10.0), (0.0, 0.0, 0.0), aside)
+    assert near <= 9.0 and far >= 11.0
+    behind = [((0.0, 0.0, 0.0), 1.0), ((0.0, 0.0, 30.0), 1.0)]
+    assert camera.clip_planes((0.0, 0.0, 10.0), (0.0, 0.0, 0.0), behind)[0] > 8.0
+
+
 def test_what_is_given_is_kept():
     one = Camera(position=(1.0, 2.0, 3.0), target=(0.0, 1.0, 0.0))
     assert camera.viewpoint(one, 1.0, (9.0, 9.0, 9.0), 1.0) == ((1.0, 2.0, 3.0), (0.0, 1.0, 0.0))

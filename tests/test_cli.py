@@ -182,7 +182,7 @@ def test_a_loop_cut_short_is_never_a_silent_picture(lumiar, tmp_path, rate):
         (["capture", "-o", "x.gif"], "x.gif: a picture ends in .png, .hdr, .npy"),
         (["capture", "-o", "gone/x.png"], "there is no folder"),
         (["capture", "-o", "/dev/full.png/x.png"], "there is no folder"),
-        (["capture", "--light", "sun"], "--light: no light 'sun'"),
+        (["capture", "--light", "moon"], "--light: no light 'moon'"),
         (["capture", "--light", "point:intensty=3"], "did you mean 'intensity'?"),
         (["capture", "--shading", "smooth"], "allowed: one of flat, gouraud, phong"),
         (["source", "--object", "2"], "--object 2: allowed: 1 to 1"),

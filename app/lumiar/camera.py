@@ -113,16 +113,20 @@ def viewpoint(camera, aspect, centre, radius):
 
 
 def clip_planes(eye, target, spheres):
-    """Return (near, far) distances that hold all (centre, radius) spheres and keep the depth fine.
+    """Return (near, far) depths that hold all (centre, radius) spheres and keep the depth fine.
 
-    Near stands before the nearest sphere, or, where the eye is within one, at a hundredth of the
-    distance to the target; never below 1e-6 of far, where 24 bits of depth tell nothing apart.
+    A depth is along the view, from the eye to the target. Near stands before the nearest sphere,
+    or, where the eye is within one, at a hundredth of the distance to the target; never below 1e-6
+    of far, where 24 bits of depth tell nothing apart.
     """
-    distances = [(math.dist(eye, centre), 1.01 * radius) for centre, radius in spheres]
-    far = max(distance + radius for distance, radius in distances)
+    ahead = _unit(_minus(target, eye))
+    depths = [(_dot(_minus(centre, eye), ahead), 1.01 * radius) for centre, radius in spheres]
+    depths = [(depth, radius) for depth, radius in depths if depth > -radius]  # not behind the eye
+    distance = math.dist(eye, target)
+    far = max((depth + radius for depth, radius in depths), default=2.0 * distance)
     near = min(
-        distance - radius if distance > radius else 0.01 * math.dist(eye, target)
-        for distance, radius in distances
+        (depth - radius if depth > radius else 0.01 * distance for depth, radius in depths),
+        default=distance,
     )
     return min(max(near, 1e-6 * far), 0.999 * far), far
 
