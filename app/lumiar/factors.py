@@ -95,7 +95,9 @@ def solid_angle(point, polygon):
     a, (b, c), (rb, rc) = p[0], (p[1:-1], p[2:]), (r[1:-1], r[2:])
     below = r[0] * rb * rc + b @ a * rc + c @ a * rb + (b * c).sum(axis=1) * r[0]
     each = 2.0 * np.arctan2(triple, below)
-    return abs(each.sum()), 8.0 * EPS * np.abs(each).sum()
+    reach = np.linalg.norm(spokes, axis=1) / r  # on edge, what rounds is still as wide as this
+    size = np.abs(each).sum() + (reach[1:-1] * reach[2:]).sum()
+    return abs(each.sum()), 8.0 * EPS * size
 
 
 def form_factor(point, normal, polygon):
@@ -108,11 +110,15 @@ def form_factor(point, normal, polygon):
     if len(above) < 3:
         return 0.0, 0.0
     found, size = vector_irradiance(point[None], above, normal)
-    return abs(found[0]) / (2.0 * math.pi), 8.0 * EPS * size[0] / (2.0 * math.pi)
+    cut = (
+        np.abs(polygon - point).max() / np.ptp(polygon, axis=0).max()
+    )  # rounds corners that it makes
+    size = size[0] * (8.0 if above is polygon else 8.0 + cut)
+    return abs(found[0]) / (2.0 * math.pi), EPS * size / (2.0 * math.pi)
 
 
 def vector_irradiance(points, polygon, normal):
-    """Return 2 pi F (m,), signed by the way round, at points (m, 3), and the sum of its terms.
+    """Return 2 pi F (m,), signed by the way round, at points (m, 3), and the size of its terms.
 
     J. H. Lambert, "Photometria", 1760: the sum over all edges of the angle that an edge is seen at
     times the unit normal of the plane through it and the point. Written as the sum of u x v over
@@ -124,13 +130,16 @@ def vector_irradiance(points, polygon, normal):
     spokes, edges = polygon - polygon[0], np.roll(polygon, -1, axis=0) - polygon
     slant = (spokes * (p + p[:, :1])).sum(axis=2, keepdims=True)
     u = spokes / r - p[:, :1] * (slant / (r[:, :1] * r * (r[:, :1] + r)))  # of lengths 1, minus u_0
-    fan = np.cross(u[:, 1:-1], u[:, 2:]) @ normal
+    fan = np.cross(u[:, 1:-1], u[:, 2:])
     across = np.cross(p, edges)
     length = np.linalg.norm(across, axis=2)
     following = np.roll(p, -1, axis=1)
     angle = np.arctan2(length, (p * following).sum(axis=2))
-    bend = _excess(angle) / np.where(length, length, 1.0) * (across @ normal)
-    return fan.sum(axis=1) + bend.sum(axis=1), np.abs(fan).sum(axis=1) + np.abs(bend).sum(axis=1)
+    bend = (_excess(angle) / np.where(length, length, 1.0))[..., None] * across
+    terms = np.concatenate([fan, bend], axis=1)
+    reach, bent = np.linalg.norm(u, axis=2), np.linalg.norm(bend, axis=2)
+    size = (reach[:, 1:-1] * reach[:, 2:]).sum(axis=1) + bent.sum(axis=1)
+    return (terms @ normal).sum(axis=1), size
 
 
 def _excess(x):
