@@ -20,7 +20,7 @@ void main() {
     if (facing <= 0.0) return;  // where not two_sided
     N = normalize(facing < 0.0 ? -N : N);
     rig_seed = rig_hash(uint(gl_PrimitiveIDIn));  // where sampled
-    rig_ground = N;  // where shadowed
+    rig_ground = rig_upright = N;  // where shadowed
     vec3 radiance = rig_radiance(position, Frame(N));  // where not tangent
     vec4 tangent = rig_along(rig_corner_tangent[0]);  // where tangent
     vec3 radiance = rig_radiance(position, tangent_frame(N, tangent));  // where tangent

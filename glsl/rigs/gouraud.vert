@@ -15,7 +15,7 @@ void main() {
     vec3 N = rig_turned(rig_vertex_normal);
     vec4 tangent = rig_along(rig_vertex_tangent);  // where tangent
     rig_seed = rig_hash(uint(gl_VertexID));  // where sampled
-    rig_ground = N;  // where shadowed
+    rig_ground = rig_upright = N;  // where shadowed
     rig_front = rig_radiance(position, Frame(N));  // where not tangent
     rig_front = rig_radiance(position, tangent_frame(N, tangent));  // where tangent
     rig_back = rig_radiance(position, Frame(-N));  // where two_sided and not tangent

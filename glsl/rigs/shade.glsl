@@ -17,11 +17,15 @@ vec3 rig_reflected(Incident incident, Frame frame, vec3 V) {
     return incident.irradiance * scatter(to_local(incident.direction, frame), V);
 }
 
-vec3 rig_ground;  // normal of the face itself, on whichever side
+vec3 rig_ground;             // normal of the face itself, on the side of
+vec3 rig_upright;            // the normal that is shaded with
+vec3 rig_raise = vec3(0.0);  // from the face to the surface that such normals speak of
 
 bool rig_blocked(vec3 position, vec3 direction, float far) {
-    vec3 ground = dot(rig_ground, direction) < 0.0 ? -rig_ground : rig_ground;
-    return rig_hidden(rig_lifted(position, ground, direction), direction, far);
+    bool above = dot(rig_upright, direction) > 0.0;
+    vec3 ground = above || dot(rig_ground, direction) > 0.0 ? rig_ground : -rig_ground;
+    vec3 start = above ? position + rig_raise : position;
+    return rig_hidden(rig_lifted(start, ground, direction), direction, far);
 }
 
 // The balance heuristic of E. Veach and L. Guibas, SIGGRAPH 1995: how much a direction drawn with one
