@@ -1,3 +1,5 @@
+#include "lib/constants.glsl"
+
 // What one bounce on a rough mirror (F = 1) loses to the bounces that follow, under height-correlated
 // Smith shadowing (E. Heitz, JCGT 3(2), 2014), and the lobe by which C. Kulla and A. Conty, SIGGRAPH
 // 2017, give it back. tests/benchmarks/fit_energy.py fits the coefficients to a quadrature, from below:
@@ -60,9 +62,17 @@ float deficit_average_beckmann(float alpha) {
         / ((((244.216233 * t + 2467.33784) * t - 68.7247956) * t - 3.1857498) * t + 1.0);
 }
 
+// The average of either distribution.
+float deficit_average(bool ggx, float alpha) {
+    return ggx ? deficit_average_ggx(alpha) : deficit_average_beckmann(alpha);
+}
+
 // The lobe of the lost light times N.L: tinted by F at every further bounce.
-// lost_L, lost_V: 1 - E; lost: its average; average: mean Fresnel reflectance
-vec3 bounced(float NdotL, float lost_L, float lost_V, float lost, vec3 average) {
+// average: mean Fresnel reflectance
+vec3 bounced(bool ggx, float NdotL, float NdotV, float alpha, vec3 average) {
+    float lost = deficit_average(ggx, alpha);
+    float lost_L = ggx ? deficit_ggx(NdotL, alpha) : deficit_beckmann(NdotL, alpha);
+    float lost_V = ggx ? deficit_ggx(NdotV, alpha) : deficit_beckmann(NdotV, alpha);
     vec3 tint = average * average * (1.0 - lost) / (1.0 - average * lost);
-    return tint * (0.318309886 * NdotL * lost_L * lost_V / max(lost, 1e-7));  // 1e-7: nothing is lost
+    return tint * (INV_PI * NdotL * lost_L * lost_V / max(lost, 1e-7));  // 1e-7: nothing is lost
 }

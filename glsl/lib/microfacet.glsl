@@ -2,7 +2,7 @@
 
 // The terms of f = D F G / (4 N.L N.V), K. Torrance and E. Sparrow, 1967; B. Walter et al., EGSR 2007.
 // H = L + V is not normalised: H.xy / H.z is the slope of the facet, without a 1 - cos to cancel.
-
+//
 // P. Beckmann and A. Spizzichino, 1963. H: H.z > 0; alpha: rms slope times sqrt 2 along T and B, > 1e-4
 float D_beckmann(vec3 H, vec2 alpha) {
     vec2 slope = H.xy / (alpha * H.z);
@@ -45,6 +45,12 @@ float G_correlated(float NdotL, float NdotV, float M_L, float M_V) {
 // The same with independent heights, G = G1(L) G1(V), Walter 2007, eq. 23.
 float G_separable(float NdotL, float NdotV, float M_L, float M_V) {
     return 0.25 * NdotL / max((NdotL + M_L) * (NdotV + M_V), 1e-30);
+}
+
+// Either of them for either distribution.
+float G_smith(bool ggx, bool correlated, vec3 L, vec3 V, vec2 alpha) {
+    float M_L = ggx ? M_ggx(L, alpha) : M_beckmann(L, alpha), M_V = ggx ? M_ggx(V, alpha) : M_beckmann(V, alpha);
+    return correlated ? G_correlated(L.z, V.z, M_L, M_V) : G_separable(L.z, V.z, M_L, M_V);
 }
 
 // The same for V-shaped grooves, Torrance and Sparrow 1967, J. Blinn 1977. H: L + V

@@ -1,11 +1,41 @@
 #include "lib/constants.glsl"
 
 // Directions by chance, from u spread evenly over [0, 1)^2, and their densities over solid angle [1/sr].
-
+//
 // Density cos(theta) / pi. Concentric rings would waste fewer samples; one ring is simpler.
 vec3 cosine_direction(vec2 u) {
     float r = sqrt(u.x), phi = 2.0 * PI * u.y;
     return vec3(r * cos(phi), r * sin(phi), sqrt(1.0 - u.x));
+}
+
+float cosine_density(vec3 L) {
+    return max(L.z, 0.0) * INV_PI;
+}
+
+// All around, density 1 / (4 pi).
+vec3 even_direction(vec2 u) {
+    float z = 1.0 - 2.0 * u.x, s = 2.0 * sqrt(u.x * (1.0 - u.x)), phi = 2.0 * PI * u.y;
+    return vec3(s * cos(phi), s * sin(phi), z);
+}
+
+// What a direction counts: scatter over its density; 0 where no light can leave.
+vec3 weighed(vec3 scatter, float density) {
+    return density > 0.0 ? scatter / density : vec3(0.0);
+}
+
+// The share of the directions that a lobe takes beside a diffuse term, by what both reflect. Neither
+// gets less than a quarter: the one that is weaker in red may be the stronger one in blue.
+float lobe_share(vec3 diffuse, vec3 lobe) {
+    float a = max(diffuse.r, max(diffuse.g, diffuse.b)), b = max(lobe.r, max(lobe.g, lobe.b));
+    float share = b / max(a + b, 1e-30);  // 1e-30: black
+    return a > 0.0 && b > 0.0 ? clamp(share, 0.25, 0.75) : share;
+}
+
+// Whether the lobe with that share is drawn, by u.x, which is spread anew over [0, 1).
+bool drawn(float share, inout vec2 u) {
+    bool yes = u.x < share;
+    u.x = min((yes ? u.x : u.x - share) / (yes ? share : 1.0 - share), 0.99999994);  // below 1
+    return yes;
 }
 
 // A facet of GGX as seen from V: the spherical cap that V reflects from, in stretched space, where

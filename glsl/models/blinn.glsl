@@ -7,6 +7,7 @@
 //         as wide as Phong's takes alpha' of about 4 alpha
 #include "lib/constants.glsl"
 #include "lib/lobe.glsl"
+#include "lib/lobe_sampling.glsl"
 
 uniform vec3 ka = vec3(0.1);      // color: k_a, reflected share of the ambient light (unitless)
 uniform vec3 kd = vec3(0.5);      // color: k_d, diffuse share (unitless)
@@ -29,6 +30,26 @@ vec3 scatter(vec3 L, vec3 V) {
         value += form == FORM_SLIDE ? ks * lobe : ks * (scale * lobe * L.z);
     }
     return value * INV_PI;
+}
+
+float share() {
+    float reflected = form == FORM_SLIDE ? 8.0 / (shininess + 4.0) : 1.0;
+    return lobe_share(float(diffuse) * kd, float(specular) * reflected * ks);
+}
+
+float scatter_pdf(vec3 L, vec3 V) {
+    vec3 H = L + V;
+    float size = length(H), adjacent = H.z + size;
+    float lobe = H.z > 0.0 ? cos_power(dot(H.xy, H.xy) / (adjacent * adjacent), shininess) : 0.0;
+    return mix(cosine_density(L), power_density(lobe, shininess) / max(2.0 * size, 1e-6), share());  // 1e-6: L = -V
+}
+
+vec3 sample_scatter(vec3 V, vec2 u, out vec3 L) {
+    if (drawn(share(), u)) {
+        vec3 H = power_direction(shininess, u);
+        L = 2.0 * dot(V, H) * H - V;
+    } else L = cosine_direction(u);
+    return weighed(scatter(L, V), scatter_pdf(L, V));
 }
 
 vec3 surround(vec3 V) {

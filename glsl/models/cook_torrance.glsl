@@ -6,7 +6,7 @@
 // note    the published norm of 1982 is four times the lecture's; fresnel slide is the lecture's misprint
 #include "lib/energy.glsl"
 #include "lib/fresnel.glsl"
-#include "lib/microfacet.glsl"
+#include "lib/facet_sampling.glsl"
 
 uniform vec3 kd = vec3(0.3, 0.08, 0.05);     // color: diffuse share (unitless)
 uniform vec3 f0 = vec3(0.04);                // color: reflectance at normal incidence, for schlick and constant
@@ -22,7 +22,7 @@ uniform bool compensated = false;            // toggle: what one bounce loses co
 
 vec3 scatter(vec3 L, vec3 V) {
     vec3 H = L + V;
-    float square = dot(H, H);
+    float square = dot(H, H), c = min(0.5 * sqrt(square), 1.0);  // c: L.H of unit directions
     if (L.z <= 0.0 || V.z <= 0.0 || square < 1e-12) return vec3(0.0);  // 1e-12: L = -V, no half vector
     vec2 a = vec2(alpha, anisotropic ? alpha_y : alpha);
     bool beckmann = distribution == DISTRIBUTION_BECKMANN;
@@ -30,12 +30,7 @@ vec3 scatter(vec3 L, vec3 V) {
     float G = 0.25 / V.z;  // none
     if (shadowing == SHADOWING_IMPLICIT) G = 0.25 * L.z;
     if (shadowing == SHADOWING_V_GROOVE) G = G_groove(L.z, V.z, H);
-    if (shadowing == SHADOWING_SMITH || shadowing == SHADOWING_SEPARABLE) {
-        float M_L = beckmann ? M_beckmann(L, a) : M_ggx(L, a);
-        float M_V = beckmann ? M_beckmann(V, a) : M_ggx(V, a);
-        G = shadowing == SHADOWING_SMITH ? G_correlated(L.z, V.z, M_L, M_V) : G_separable(L.z, V.z, M_L, M_V);
-    }
-    float c = min(0.5 * sqrt(square), 1.0);  // L.H of unit directions
+    if (shadowing >= SHADOWING_SMITH) G = G_smith(!beckmann, shadowing == SHADOWING_SMITH, L, V, a);
     vec3 F = f0;
     if (fresnel == FRESNEL_EXACT) F = vec3(F_dielectric(c, eta).x);
     if (fresnel == FRESNEL_SCHLICK) F = F_schlick(f0, c);
@@ -44,11 +39,20 @@ vec3 scatter(vec3 L, vec3 V) {
     if (compensated && !anisotropic) {  // its loss has no known fit there
         vec3 mean = fresnel == FRESNEL_SCHLICK ? F_average(f0, vec3(0.0)) : f0;
         if (fresnel == FRESNEL_EXACT || fresnel == FRESNEL_SLIDE) mean = vec3(F_average_dielectric(eta));
-        value += beckmann
-            ? bounced(L.z, deficit_beckmann(L.z, alpha), deficit_beckmann(V.z, alpha), deficit_average_beckmann(alpha), mean)
-            : bounced(L.z, deficit_ggx(L.z, alpha), deficit_ggx(V.z, alpha), deficit_average_ggx(alpha), mean);
+        value += bounced(!beckmann, L.z, V.z, alpha, mean);
     }
     return value + kd * (INV_PI * L.z);
+}
+
+float scatter_pdf(vec3 L, vec3 V) {
+    vec2 a = vec2(alpha, anisotropic ? alpha_y : alpha);
+    return glossy_density(distribution == DISTRIBUTION_GGX, lobe_share(kd, F_schlick(f0, max(V.z, 0.0))), L, V, a);
+}
+
+vec3 sample_scatter(vec3 V, vec2 u, out vec3 L) {
+    vec2 a = vec2(alpha, anisotropic ? alpha_y : alpha);
+    L = glossy_direction(distribution == DISTRIBUTION_GGX, lobe_share(kd, F_schlick(f0, max(V.z, 0.0))), V, a, u);
+    return weighed(scatter(L, V), scatter_pdf(L, V));
 }
 
 vec3 surround(vec3 V) {

@@ -5,23 +5,13 @@
 // claims  positive, reciprocal, conserving (form = energy_preserving)
 // note    qualitative is the lecture's, without interreflection; full adds it and can gain energy
 #include "lib/constants.glsl"
-#include "lib/angle.glsl"
+#include "lib/diffuse.glsl"
+#include "lib/sampling.glsl"
 
 uniform vec3 albedo = vec3(0.8);            // color: rho, of a facet (unitless)
 uniform float sigma = radians(30.0);        // [0, 90] degrees: standard deviation of the facets' slope angle
 uniform float roughness = 0.5;              // [0, 1]: r of energy_preserving, which has no sigma (unitless)
 uniform int form = 0;                       // {qualitative, full, energy_preserving}: which of the three
-
-const float LOST = 0.28779340921;           // 1/2 - 2 / (3 pi)
-const float LOST_MEAN = 0.21530519675;      // the same less 2/3 - 28 / (15 pi)
-
-// (1 - E(mu)) / (r / (1 + LOST r)) of the single bounce, EON eq. 12, without a quotient by mu.
-float lost_share(vec3 w) {
-    float S = length(w.xy), mu = w.z;
-    float curve = S * (angle_of(S, mu) - S * mu);
-    float rest = S * mu * (1.0 + S * (1.0 + S)) / (1.0 + S) - S;
-    return max(LOST - INV_PI * (curve + 2.0 / 3.0 * rest), 0.0);
-}
 
 vec3 scatter(vec3 L, vec3 V) {
     if (L.z <= 0.0 || V.z <= 0.0) return vec3(0.0);
@@ -53,6 +43,15 @@ vec3 scatter(vec3 L, vec3 V) {
     float third = 0.125 * variance / (variance + 0.09) * ab * ab * (1.0 - abs(turn)) * half_tangent;
     float again = 0.17 * variance / (variance + 0.13) * (1.0 - turn * b * b) * L.z;
     return INV_PI * albedo * max(one * L.z + two * second + third + again * albedo, 0.0);  // or -1e-4
+}
+
+float scatter_pdf(vec3 L, vec3 V) {
+    return cosine_density(L);
+}
+
+vec3 sample_scatter(vec3 V, vec2 u, out vec3 L) {
+    L = cosine_direction(u);
+    return weighed(scatter(L, V), cosine_density(L));
 }
 
 vec3 surround(vec3 V) {

@@ -6,6 +6,7 @@
 // note    I = k_a I_a + k_d I_d cos(theta) + k_s I_s cos(beta)^alpha, divided by pi once
 #include "lib/constants.glsl"
 #include "lib/lobe.glsl"
+#include "lib/lobe_sampling.glsl"
 
 uniform vec3 ka = vec3(0.1);     // color: k_a, reflected share of the ambient light (unitless)
 uniform vec3 kd = vec3(0.5);     // color: k_d, diffuse share (unitless)
@@ -27,6 +28,23 @@ vec3 scatter(vec3 L, vec3 V) {
         value += form == FORM_SLIDE ? ks * lobe : ks * (0.5 * (shininess + 2.0) * lobe * L.z);
     }
     return value * INV_PI;
+}
+
+float share() {
+    float reflected = form == FORM_SLIDE ? 2.0 / (shininess + 1.0) : 1.0;
+    return lobe_share(float(diffuse) * kd, float(specular) * reflected * ks);
+}
+
+float scatter_pdf(vec3 L, vec3 V) {
+    vec3 d = vec3(-L.xy, L.z) - V;
+    float square = dot(d, d), lobe = cos_power(square / max(4.0 - square, 1e-6), shininess);
+    return mix(cosine_density(L), power_density(lobe, shininess), share());
+}
+
+vec3 sample_scatter(vec3 V, vec2 u, out vec3 L) {
+    vec3 R = vec3(-V.xy, V.z);
+    L = drawn(share(), u) ? about(R, power_direction(shininess, u)) : cosine_direction(u);
+    return weighed(scatter(L, V), scatter_pdf(L, V));
 }
 
 vec3 surround(vec3 V) {

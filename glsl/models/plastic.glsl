@@ -5,7 +5,7 @@
 // claims  positive, reciprocal, conserving
 // note    a composite: pigment under a rough dielectric coat
 #include "lib/fresnel.glsl"
-#include "lib/microfacet.glsl"
+#include "lib/facet_sampling.glsl"
 
 uniform vec3 kd = vec3(0.6, 0.1, 0.08);  // color: albedo of the base (unitless)
 uniform float eta = 1.5;                 // [1.1, 3]: index of refraction of the coat (unitless)
@@ -27,11 +27,23 @@ vec3 scatter(vec3 L, vec3 V) {
     vec2 a = vec2(alpha);
     bool ggx = distribution == DISTRIBUTION_GGX;
     float D = ggx ? D_ggx(H, a) : D_beckmann(H, a);
-    float M_L = ggx ? M_ggx(L, a) : M_beckmann(L, a), M_V = ggx ? M_ggx(V, a) : M_beckmann(V, a);
-    float G = shadowing == SHADOWING_SMITH ? G_correlated(L.z, V.z, M_L, M_V) : G_separable(L.z, V.z, M_L, M_V);
+    float G = G_smith(ggx, shadowing == SHADOWING_SMITH, L, V, a);
     float F = F_dielectric(min(0.5 * sqrt(square), 1.0), eta).x;
     float T = F_dielectric(min(L.z, 1.0), eta).y * F_dielectric(min(V.z, 1.0), eta).y;
     return vec3(F * D * G) + base() * (T * INV_PI * L.z);
+}
+
+float share(vec3 V) {
+    return lobe_share(kd, F_dielectric(clamp(V.z, 0.0, 1.0), eta).xxx);
+}
+
+float scatter_pdf(vec3 L, vec3 V) {
+    return glossy_density(distribution == DISTRIBUTION_GGX, share(V), L, V, vec2(alpha));
+}
+
+vec3 sample_scatter(vec3 V, vec2 u, out vec3 L) {
+    L = glossy_direction(distribution == DISTRIBUTION_GGX, share(V), V, vec2(alpha), u);
+    return weighed(scatter(L, V), scatter_pdf(L, V));
 }
 
 vec3 surround(vec3 V) {

@@ -5,8 +5,7 @@
 // note    a metal of complex index eta + i k at three wavelengths; assets/materials has measured ones
 #include "lib/energy.glsl"
 #include "lib/fresnel.glsl"
-#include "lib/microfacet.glsl"
-#include "lib/sampling.glsl"
+#include "lib/facet_sampling.glsl"
 
 uniform vec3 eta = vec3(0.14, 0.503, 1.428);   // [0.01, 10]: index of refraction, here gold's (unitless)
 uniform vec3 k = vec3(3.702, 2.312, 1.937);    // [0, 12]: extinction coefficient (unitless)
@@ -26,8 +25,7 @@ vec3 scatter(vec3 L, vec3 V) {
     vec2 a = vec2(alpha, anisotropic ? alpha_y : alpha);
     bool ggx = distribution == DISTRIBUTION_GGX;
     float D = ggx ? D_ggx(H, a) : D_beckmann(H, a);
-    float M_L = ggx ? M_ggx(L, a) : M_beckmann(L, a), M_V = ggx ? M_ggx(V, a) : M_beckmann(V, a);
-    float G = shadowing == SHADOWING_SMITH ? G_correlated(L.z, V.z, M_L, M_V) : G_separable(L.z, V.z, M_L, M_V);
+    float G = G_smith(ggx, shadowing == SHADOWING_SMITH, L, V, a);
     float c = min(0.5 * length(H), 1.0);  // L.H of unit directions
     vec3 dip = form == FORM_F82 ? F82_dip(f0, f82) : vec3(0.0);
     vec3 F = form == FORM_EXACT ? 1.0 - A_conductor(c, eta, k) : F_f82(f0, dip, c);
@@ -36,25 +34,22 @@ vec3 scatter(vec3 L, vec3 V) {
         vec3 front = form == FORM_EXACT ? 1.0 - A_conductor(1.0, eta, k) : f0;
         if (form == FORM_EXACT) dip = F82_dip(front, 1.0 - A_conductor(1.0 / 7.0, eta, k));
         vec3 mean = clamp(F_average(front, dip), 0.0, 1.0);
-        value += ggx
-            ? bounced(L.z, deficit_ggx(L.z, alpha), deficit_ggx(V.z, alpha), deficit_average_ggx(alpha), mean)
-            : bounced(L.z, deficit_beckmann(L.z, alpha), deficit_beckmann(V.z, alpha), deficit_average_beckmann(alpha), mean);
+        value += bounced(ggx, L.z, V.z, alpha, mean);
     }
     return value;
 }
 
+float share() {
+    return compensated && !anisotropic ? 1.0 - deficit_average(distribution == DISTRIBUTION_GGX, alpha) : 1.0;
+}
+
 float scatter_pdf(vec3 L, vec3 V) {
-    vec3 H = L + V;
-    if (L.z <= 0.0 || V.z <= 0.0 || dot(H, H) < 1e-12) return 0.0;
     vec2 a = vec2(alpha, anisotropic ? alpha_y : alpha);
-    if (distribution == DISTRIBUTION_GGX) return D_ggx(H, a) / (4.0 * (V.z + M_ggx(V, a)));
-    return D_beckmann(H, a) * H.z / (2.0 * dot(H, H));
+    return glossy_density(distribution == DISTRIBUTION_GGX, share(), L, V, a);
 }
 
 vec3 sample_scatter(vec3 V, vec2 u, out vec3 L) {
     vec2 a = vec2(alpha, anisotropic ? alpha_y : alpha);
-    vec3 H = distribution == DISTRIBUTION_GGX ? visible_ggx(V, a, u) : facet_beckmann(a, u);
-    L = 2.0 * dot(V, H) * H - V;
-    float density = scatter_pdf(L, V);
-    return density > 0.0 ? scatter(L, V) / density : vec3(0.0);
+    L = glossy_direction(distribution == DISTRIBUTION_GGX, share(), V, a, u);
+    return weighed(scatter(L, V), scatter_pdf(L, V));
 }

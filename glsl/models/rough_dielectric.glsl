@@ -4,7 +4,7 @@
 // sides   both
 // note    both BRDFs and both BTDFs of a boundary; radiance grows by eta^2 where it enters (eq. 21)
 #include "lib/fresnel.glsl"
-#include "lib/microfacet.glsl"
+#include "lib/facet_sampling.glsl"
 
 uniform float eta = 1.5;       // [0.25, 4]: index of refraction below the surface over that above (unitless)
 uniform float alpha = 0.2;     // [0.001, 1] log: roughness (unitless)
@@ -31,4 +31,28 @@ vec3 scatter(vec3 L, vec3 V) {
     if (reflects) return vec3(F_dielectric(c, n).x * D * G);
     float T = T_dielectric(c, min(-LdotH * unit, 1.0) * n, n);
     return vec3(T * D * G * 4.0 * -LdotH * VdotH / (square * square));
+}
+
+// The share of the directions that are mirrored. V: above; n: the index below over that above
+float share(vec3 V, float n) {
+    return clamp(F_dielectric(clamp(V.z, 0.0, 1.0), n).x, 0.1, 0.9);
+}
+
+float scatter_pdf(vec3 L, vec3 V) {
+    float side = V.z < 0.0 ? -1.0 : 1.0, n = V.z < 0.0 ? 1.0 / eta : eta;
+    L.z *= side;
+    V.z *= side;
+    bool ggx = distribution == DISTRIBUTION_GGX;
+    if (L.z > 0.0) return share(V, n) * facet_mirrored_density(ggx, L, V, vec2(alpha));
+    return (1.0 - share(V, n)) * facet_refracted_density(ggx, L, V, vec2(alpha), n);
+}
+
+vec3 sample_scatter(vec3 V, vec2 u, out vec3 L) {
+    float side = V.z < 0.0 ? -1.0 : 1.0, n = V.z < 0.0 ? 1.0 / eta : eta;
+    vec3 up = vec3(V.xy, side * V.z);
+    bool ggx = distribution == DISTRIBUTION_GGX, mirrors = drawn(share(up, n), u);
+    L = mirrors ? facet_mirrored(ggx, up, vec2(alpha), u) : facet_refracted(ggx, up, vec2(alpha), n, u);
+    bool passes = mirrors == (L.z > 0.0);
+    L.z *= side;
+    return passes ? weighed(scatter(L, V), scatter_pdf(L, V)) : vec3(0.0);
 }

@@ -6,6 +6,7 @@
 // note    the lecture's other anisotropic model; strand lights threads from all sides, surface cloth of them
 #include "lib/constants.glsl"
 #include "lib/lobe.glsl"
+#include "lib/sampling.glsl"
 
 uniform vec3 kd = vec3(0.2);     // color: k_d, diffuse share (unitless)
 uniform vec3 ks = vec3(0.5);     // color: m_spec, specular share (unitless)
@@ -21,6 +22,15 @@ vec3 scatter(vec3 L, vec3 V) {
     float lobe = cos_power(square / max(4.0 - square, 1e-6), shininess);  // 1e-6: opposite
     if (form == FORM_SURFACE) return INV_PI * L.z * (kd + ks * lobe);
     return INV_PI * (kd * sin_L + ks * lobe);
+}
+
+float scatter_pdf(vec3 L, vec3 V) {
+    return form == FORM_SURFACE ? cosine_density(L) : 0.25 * INV_PI;
+}
+
+vec3 sample_scatter(vec3 V, vec2 u, out vec3 L) {
+    L = form == FORM_SURFACE ? cosine_direction(u) : even_direction(u);
+    return weighed(scatter(L, V), scatter_pdf(L, V));
 }
 
 vec3 surround(vec3 V) {

@@ -5,6 +5,7 @@
 // needs   tangent
 // note    slide is the lecture's, with Ward's cheap exponent (eq. 5b); only bounded keeps an albedo below 1
 #include "lib/constants.glsl"
+#include "lib/facet_sampling.glsl"
 
 uniform vec3 kd = vec3(0.1);     // color: rho_d, diffuse share (unitless)
 uniform vec3 ks = vec3(0.5);     // color: rho_s, specular share (unitless)
@@ -27,6 +28,19 @@ vec3 scatter(vec3 L, vec3 V) {
         else lobe *= sqrt(L.z / V.z);
     }
     return kd * (INV_PI * L.z) + ks * lobe;
+}
+
+float share() {
+    return min(lobe_share(kd, ks), 0.9);  // the slide's lobe is wider than the facets'
+}
+
+float scatter_pdf(vec3 L, vec3 V) {
+    return glossy_density(false, share(), L, V, vec2(alpha_x, alpha_y));
+}
+
+vec3 sample_scatter(vec3 V, vec2 u, out vec3 L) {
+    L = glossy_direction(false, share(), V, vec2(alpha_x, alpha_y), u);
+    return weighed(scatter(L, V), scatter_pdf(L, V));
 }
 
 vec3 surround(vec3 V) {
