@@ -29,25 +29,25 @@ Disk disk_from(vec3 centre, vec3 front, float radius) {
 // them would cancel; their product is 4 radius^2 height^2.
 vec2 disk_halves(Disk g) {
     float W = g.rim.x * g.rim.y, D = g.height * g.height + (g.foot - g.radius) * (g.foot + g.radius);
-    float large = W + abs(D), rest = g.radius * g.height, small = 4.0 * rest * (rest / large);
+    float large = W + abs(D), rest = g.radius * g.height, small = max(4.0 * rest * (rest / large), 1e-37);
     return D > 0.0 ? vec2(large, small) : vec2(small, large);
 }
 
 // Irradiance over radiance of a disk that is all above the horizon: the configuration factors of elements
-// parallel and perpendicular to a disk, J. Howell's catalog, their differences of roots multiplied out.
+// parallel and perpendicular to a disk, J. Howell's catalog, joined so that nothing cancels near the horizon.
 float disk_whole(Disk g, vec3 normal) {
-    float W = g.rim.x * g.rim.y, sum = g.height * g.height + g.foot * g.foot + g.radius * g.radius + W;
-    float facing = disk_halves(g).y / (2.0 * W);
-    float across = 2.0 * g.height * g.foot * (g.radius / W) * (g.radius / sum);
-    return -PI * (facing * dot(normal, g.front) + across * dot(normal, g.x));
+    float W = g.rim.x * g.rim.y, large = disk_halves(g).x, square = g.radius * g.radius;
+    float a = g.height / (large + 2.0 * square), b = 2.0 * (a * g.radius) * (g.height * g.radius / large);
+    return 2.0 * PI * (square / W) * (a * dot(normal, g.centre) - b * dot(normal, g.front));
 }
 
 // Flux of a part of the rim, per u: tan(phi / 2) = sqrt(k) tan(u / 2), phi the azimuth around the centre
 // from the nearest point, spreads u evenly over what is near and what is far.
 // apex: of the fan; on: its place in the disk, by x and y; z, c: height above the horizon and length along
-// the apex's direction, of the centre, of x and of y; k: nearest over farthest distance
-vec3 disk_rim_flux(Disk g, Apex apex, vec2 on, vec3 z, vec3 c, float k, vec3 u) {
-    vec3 s = sin(0.5 * u), o = cos(0.5 * u), d = o * o + k * s * s;
+// the apex's direction, of the centre, of x and of y; k: nearest over farthest distance; s, o: sine and
+// cosine of u / 2
+vec3 disk_rim_flux(Disk g, Apex apex, vec2 on, vec3 z, vec3 c, float k, vec3 s, vec3 o) {
+    vec3 d = o * o + k * s * s;
     vec3 versine = 2.0 * k * s * s / d, sine = 2.0 * sqrt(k) * s * o / d, cosine = 1.0 - versine;
     vec3 square = g.rim.x * g.rim.x + 2.0 * g.foot * g.radius * versine, inverse = inversesqrt(square);
     vec3 area = g.radius * (g.radius - on.x + on.x * versine - on.y * sine);
@@ -57,16 +57,18 @@ vec3 disk_rim_flux(Disk g, Apex apex, vec2 on, vec3 z, vec3 c, float k, vec3 u) 
 }
 
 // The two points of a quadrature at the same distances from the middle.
+// mid, off: halves of u
 vec3 disk_pair(Disk g, Apex apex, vec2 on, vec3 z, vec3 c, float k, float mid, vec3 off) {
-    return disk_rim_flux(g, apex, on, z, c, k, mid - off) + disk_rim_flux(g, apex, on, z, c, k, mid + off);
+    vec3 a = sin(mid) * cos(off), b = cos(mid) * sin(off), d = cos(mid) * cos(off), e = sin(mid) * sin(off);
+    return disk_rim_flux(g, apex, on, z, c, k, a - b, d + e) + disk_rim_flux(g, apex, on, z, c, k, a + b, d - e);
 }
 
 // Its integral between two azimuths, by eighteen points of C. F. Gauss and A. Legendre: 3e-6 where the
 // nearest point of the rim is 80 times nearer than the farthest, 1e-7 where 8 times.
 // from, to: [-pi, pi], with neither 0 nor pi between them, beside which the integrand is steep
 float disk_panel(Disk g, Apex apex, vec2 on, vec3 z, vec3 c, float k, float from, float to) {
-    float first = 2.0 * azimuth(sin(0.5 * from), sqrt(k) * cos(0.5 * from));
-    float last = 2.0 * azimuth(sin(0.5 * to), sqrt(k) * cos(0.5 * to));
+    float first = azimuth(sin(0.5 * from), sqrt(k) * cos(0.5 * from));
+    float last = azimuth(sin(0.5 * to), sqrt(k) * cos(0.5 * to));
     float mid = 0.5 * (first + last), wide = 0.5 * (last - first);
     vec3 near = wide * vec3(0.084775013, 0.251886226, 0.411751161);
     vec3 far = wide * vec3(0.559770831, 0.691687043, 0.803704959);
@@ -74,38 +76,48 @@ float disk_panel(Disk g, Apex apex, vec2 on, vec3 z, vec3 c, float k, float from
     vec3 sum = vec3(0.169142383, 0.164276484, 0.154684675) * disk_pair(g, apex, on, z, c, k, mid, near);
     sum += vec3(0.140642915, 0.122555207, 0.100942044) * disk_pair(g, apex, on, z, c, k, mid, far);
     sum += vec3(0.0764257303, 0.0497145489, 0.0216160135) * disk_pair(g, apex, on, z, c, k, mid, end);
-    return wide * dot(sum, vec3(1.0));
+    return 2.0 * wide * dot(sum, vec3(1.0));
 }
 
-// Irradiance on a surface there over the radiance of the disk: pi times the form factor. Closed if the disk
-// is all above the horizon, else a fan (lib/fan.glsl) of the arc above it and of its chord.
+// Irradiance over radiance of a disk cut by the horizon, by a fan (lib/fan.glsl) of the arc above and of its
+// chord. phi, wide: where the rim is highest, [0, pi], and half the arc, which holds not both 0 and pi
+// z: heights of the centre, of x and of y
+float disk_part(Disk g, vec3 normal, vec3 y, vec3 z, float phi, float wide) {
+    float from = phi - wide, to = phi + wide;
+    vec4 s = vec4(g.radius * (cos(to) * g.x + sin(to) * y), 0.0);
+    vec4 t = vec4(g.radius * (cos(from) * g.x + sin(from) * y), 0.0);
+    vec4 at = fan_nearer(g.centre, s, t, s);
+    vec2 on = vec2(dot(at.xyz, g.x), dot(at.xyz, y));
+    float foot = -g.height * dot(normal, g.front), near = z.x + z.y;
+    if (g.foot < g.radius && foot > 0.0) on = vec2(g.foot, 0.0), at = vec4(g.foot * g.x, foot);
+    if (g.foot >= g.radius && near > 0.0) on = vec2(g.radius, 0.0), at = vec4(g.radius * g.x, near);
+    Apex apex = fan_apex(g.centre, at);
+    vec3 w = apex.direction, c = vec3(dot(w, g.centre), g.radius * vec2(dot(w, g.x), dot(w, y)));
+    float k = g.rim.x / g.rim.y, split = from < 0.0 ? 0.0 : min(to > PI ? PI : phi, PI);
+    float turn = to > PI ? 2.0 * PI : 0.0;
+    float sum = disk_panel(g, apex, on, z, c, k, from, split);
+    sum += disk_panel(g, apex, on, z, c, k, split - turn, to - turn);
+    bool mirrored = dot(y, g.y) < 0.0;
+    Blade chord = fan_blade(g.centre, g.front, g.height, apex, mirrored ? t.xyz : s.xyz, mirrored ? s.xyz : t.xyz);
+    return g.height / apex.range * sum + fan_blade_flux(chord, apex, 0.0, 0.0);
+}
+
+// Irradiance on a surface there over the radiance of the disk: pi times the form factor.
 // normal: unit
 float disk_irradiance(Disk g, vec3 normal) {
     vec3 z = vec3(dot(normal, g.centre), g.radius * vec2(dot(normal, g.x), dot(normal, g.y)));
     float tilt = length(z.yz);
     if (g.height <= 0.0 || z.x <= -tilt) return 0.0;
-    if (z.x >= tilt) return disk_whole(g, normal);
-    bool turned = z.z < 0.0;
-    vec3 y = turned ? -g.y : g.y;
+    float whole = disk_whole(g, normal);
+    if (z.x >= tilt) return whole;
+    // Above are the nearest and the farthest point: then what is below, seen from the other side, is less.
+    bool most = z.x > abs(z.y);
+    if (most) z = -z;
+    vec3 y = z.z < 0.0 ? -g.y : g.y;
     z.z = abs(z.z);
-    float phi = angle_between(z.z, z.y), half_arc = 2.0 * angle_between(sqrt(tilt + z.x), sqrt(tilt - z.x));
-    float from = phi - half_arc, to = phi + half_arc;
-    vec4 s = vec4(g.radius * (cos(to) * g.x + sin(to) * y), 0.0);
-    vec4 t = vec4(g.radius * (cos(from) * g.x + sin(from) * y), 0.0);
-    float foot = -g.height * dot(normal, g.front);
-    vec4 at = fan_nearer(g.centre, s, t, s);
-    vec2 on = vec2(dot(at.xyz, g.x), dot(at.xyz, y));
-    if (g.foot < g.radius && foot > 0.0) on = vec2(g.foot, 0.0), at = vec4(g.foot * g.x, foot);
-    if (g.foot >= g.radius && z.x + z.y > 0.0) on = vec2(g.radius, 0.0), at = vec4(g.radius * g.x, z.x + z.y);
-    Apex apex = fan_apex(g.centre, at);
-    vec3 w = apex.direction, c = vec3(dot(w, g.centre), g.radius * vec2(dot(w, g.x), dot(w, y)));
-    float k = g.rim.x / g.rim.y;
-    float sum = disk_panel(g, apex, on, z, c, k, min(from, 0.0), 0.0);
-    sum += disk_panel(g, apex, on, z, c, k, max(from, 0.0), min(to, PI));
-    sum += disk_panel(g, apex, on, z, c, k, -PI, max(to, PI) - 2.0 * PI);
-    vec3 first = turned ? t.xyz : s.xyz, last = turned ? s.xyz : t.xyz;
-    Blade chord = fan_blade(g.centre, g.front, g.height, apex, first, last);
-    return min(g.height / apex.range * sum + fan_blade_flux(chord, apex, 0.0, 0.0), PI);
+    float phi = angle_between(z.z, z.y), wide = 2.0 * angle_between(sqrt(tilt + z.x), sqrt(tilt - z.x));
+    float part = disk_part(g, most ? -normal : normal, y, z, phi, wide);
+    return min(most ? whole + part : part, PI);
 }
 
 // The elliptic cone of its directions, C. Ureña et al. in I. Guillén et al., "Area-preserving

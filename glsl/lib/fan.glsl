@@ -34,10 +34,11 @@ vec3 fan_far(vec3 c) {
 }
 
 // Flux on the horizon per sin^2(B) dpsi: the radial integral above, over sin^2 B.
-// apex, z: cosines to the normal, [0, 1]; c: cos B
+// apex, z: cosines to the normal; c: cos B; all in [0, 1] but for rounding where the place touches the patch
 vec3 fan_flux(float apex, vec3 z, vec3 c) {
+    c = clamp(c, 0.0, 1.0);
     vec3 far = fan_far(c);
-    return apex * (0.5 - c * far) + z * far;
+    return apex * (0.5 - c * far) + min(z, 1.0) * far;
 }
 
 // A vector with length 1, or some unit vector if it is 0.
