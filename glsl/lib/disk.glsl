@@ -98,7 +98,8 @@ float disk_part(Disk g, vec3 normal, vec3 y, vec3 z, float phi, float wide) {
     float sum = disk_panel(g, apex, on, z, c, k, from, split);
     sum += disk_panel(g, apex, on, z, c, k, split - turn, to - turn);
     bool mirrored = dot(y, g.y) < 0.0;
-    Blade chord = fan_blade(g.centre, g.front, g.height, apex, mirrored ? t.xyz : s.xyz, mirrored ? s.xyz : t.xyz);
+    vec3 first = mirrored ? t.xyz : s.xyz, last = mirrored ? s.xyz : t.xyz;
+    Blade chord = fan_blade(g.centre, g.front, g.height, apex, first, last);
     return g.height / apex.range * sum + fan_blade_flux(chord, apex, 0.0, 0.0);
 }
 
@@ -120,8 +121,8 @@ float disk_irradiance(Disk g, vec3 normal) {
     return min(most ? whole + part : part, PI);
 }
 
-// The elliptic cone of its directions, C. Ureña et al. in I. Guillén et al., "Area-preserving
-// parameterizations for spherical ellipses", EGSR 2017: axis, and half-axes as sines of half-angles.
+// The elliptic cone of its directions, E. Heitz, "Analytical calculation of the solid angle subtended by an
+// arbitrarily positioned ellipsoid to a point source", 2017: its axis, and half-axes as sines of half-angles.
 struct Ellipse {
     vec3 axis, x, y;  // unit
     vec2 sine;        // along x and y
@@ -137,7 +138,7 @@ Ellipse disk_ellipse(Disk g) {
 
 // A direction to the disk, spread evenly over the ellipse as seen along its axis from afar, then over the
 // cosine: the density, (1 + cos B) / (2 pi sine.x sine.y), B of the rim beyond, is within a factor of two of
-// the solid angle's, with no elliptic integral. inverse is 1 / density [sr], 0 from behind.
+// the solid angle's, without the elliptic integrals of I. Guillen et al., EGSR 2017. inverse is 1 / density [sr], 0 from behind.
 vec3 disk_direction(Disk g, vec2 u, out float inverse) {
     Ellipse e = disk_ellipse(g);
     float tau = 2.0 * PI * u.y;
@@ -148,17 +149,17 @@ vec3 disk_direction(Disk g, vec2 u, out float inverse) {
     return fan_unit((1.0 - off) * e.axis + s * (rim.x * e.x + rim.y * e.y));
 }
 
-// Whether a direction meets it.
-bool disk_met(Disk g, vec3 direction) {
-    float toward = -dot(direction, g.front);
-    vec3 off = direction * (g.height / max(toward, 1e-9)) - g.centre;
-    return g.height > 0.0 && toward > 1e-9 && dot(off, off) <= g.radius * g.radius;
+// Whether a direction meets it, or misses it by less than a slack of its distance.
+bool disk_met(Disk g, vec3 direction, float slack) {
+    float toward = -dot(direction, g.front), range = g.height / max(toward, 1e-9);
+    float off = distance(direction * range, g.centre);
+    return g.height > 0.0 && toward > 1e-9 && off <= g.radius + slack * range;
 }
 
-// The density of those directions over solid angle [1/sr].
+// The density of those directions over solid angle [1/sr], also of those that rounding carries off its edge.
 // direction: unit
 float disk_density(Disk g, vec3 direction) {
-    if (!disk_met(g, direction)) return 0.0;
+    if (!disk_met(g, direction, FAN_SLACK)) return 0.0;
     Ellipse e = disk_ellipse(g);
     vec2 rim = vec2(dot(direction, e.x), dot(direction, e.y)), part = rim / max(e.sine, 1e-18);
     float square = min(dot(rim, rim) / max(dot(part, part), 1e-37), 1.0);

@@ -19,6 +19,9 @@ struct Apex {
 const vec3 FAN_NEAR = vec3(0.0337652429, 0.169395307, 0.380690407);
 const vec3 FAN_WEIGHT = vec3(0.0856622462, 0.180380787, 0.233956967);
 
+// By how much of its distance rounding moves a point along a direction off what it was meant for.
+const float FAN_SLACK = 2e-7;
+
 // (B / sin B - cos B) / (2 sin^2 B) as a polynomial in c = cos B, minimax of its relative error, 1.4e-7.
 // c: [0, 1]
 vec3 fan_far(vec3 c) {

@@ -60,12 +60,13 @@ vec4 polygon_top(Border k) {
     return polygon_higher(first, polygon_higher(polygon_higher(k.s[3], k.s[4]), k.s[5]));
 }
 
-// Twice the area of the triangle of a point and an edge, positive if the point is within.
+// Distance of a point of its plane from the line of an edge, positive on the side where it is within.
 float polygon_side(Polygon g, vec3 point, vec4 s, vec4 t) {
-    return dot(g.front, cross(s.xyz - point, t.xyz - s.xyz));
+    vec3 e = t.xyz - s.xyz;
+    return dot(g.front, cross(s.xyz - point, e)) * inversesqrt(max(dot(e, e), 1e-37));
 }
 
-// The least of those over all edges: whether a point of its plane is within.
+// The least of those over all edges.
 float polygon_within(Polygon g, Border k, int corners, vec3 point) {
     float least = min(polygon_side(g, point, k.s[0], k.t[0]), polygon_side(g, point, k.s[1], k.t[1]));
     least = min(least, polygon_side(g, point, k.s[2], k.t[2]));
@@ -134,17 +135,12 @@ float polygon_solid_angle(Polygon g, int corners) {
     return polygon_angles(g, k, corners, polygon_apex(g, k, corners, vec3(0.0)))[5];
 }
 
-// Where a direction meets its plane, from its origin, and whether that is in front and within.
-bool polygon_met(Polygon g, Border k, int corners, vec3 direction, out vec3 point) {
-    float toward = -dot(direction, g.front);
-    point = direction * (g.height / max(toward, 1e-9)) - g.origin;
-    return g.height > 0.0 && toward > 1e-9 && polygon_within(g, k, corners, point) >= 0.0;
-}
-
-// 1 where a direction meets it, else 0.
-float polygon_seen(Polygon g, int corners, vec3 direction) {
-    vec3 point;
-    return polygon_met(g, polygon_border(g, vec3(0.0)), corners, direction, point) ? 1.0 : 0.0;
+// Whether a direction meets it, or misses it by less than a slack of its distance.
+bool polygon_met(Polygon g, int corners, vec3 direction, float slack) {
+    Border k = polygon_border(g, vec3(0.0));
+    float toward = -dot(direction, g.front), range = g.height / max(toward, 1e-9);
+    bool within = polygon_within(g, k, corners, direction * range - g.origin) >= -slack * range;
+    return g.height > 0.0 && toward > 1e-9 && within;
 }
 
 // A direction to it, spread evenly over its solid angle: one of the triangles, a point w on its border that
@@ -168,11 +164,11 @@ vec4 polygon_direction(Polygon g, int corners, vec2 u) {
     return vec4(fan_direction(polygon_blade(g, apex, s, t), apex, vec2(x - before, u.y)), sum[5]);
 }
 
-// The density of those directions over solid angle [1/sr].
+// The density of those directions over solid angle [1/sr], also of those that rounding carries off its edge.
 // corners: 3 to 6, a constant; direction: unit
 float polygon_density(Polygon g, int corners, vec3 direction) {
-    float met = polygon_seen(g, corners, direction);
-    return met > 0.0 ? 1.0 / max(polygon_solid_angle(g, corners), 1e-37) : 0.0;
+    bool met = polygon_met(g, corners, direction, FAN_SLACK);
+    return met ? 1.0 / max(polygon_solid_angle(g, corners), 1e-37) : 0.0;
 }
 
 // Distance to its plane along a direction that meets it.

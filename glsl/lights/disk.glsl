@@ -1,14 +1,16 @@
-// light   Disk: a round plate of uniform radiance that radiates from its front, the side toward its target
-// paper   J. Howell, "A catalog of radiation configuration factors", 1982; cut by the horizon, see lib/disk.glsl
-// sampled  by solid angle: within a factor of two of uniform, exactly uniform where it is small
-// note    irradiance within 1e-5, closed if all is above the horizon, else by quadrature along the rim
+// light   Disk: a round plate of uniform radiance that radiates from its front, toward its target
+// paper   J. Howell, "A catalog of radiation configuration factors", 1982; quadrature along the rim where
+//         the horizon cuts it, see lib/disk.glsl
+// sampled  by solid angle, within a factor of two of uniform, exactly where the disk is small
+// note    irradiance within 1e-5 where it stands 0.03 rad above the horizon; far from the origin, float32
+//         keeps fewer digits of place - position
 #include "lib/light.glsl"
 #include "lib/disk.glsl"
 
 uniform vec3 position = vec3(0.0, 3.0, 0.0);  // [.. -10, 10 ..]: its centre (m)
 uniform vec3 target = vec3(0.0);              // [.. -10, 10 ..]: what its front faces (m)
 uniform float radius = 0.5;                   // [0, 5 ..]: of the plate (m)
-uniform vec3 radiance = vec3(10.0);           // [0, 100 ..] tinted: L, the same toward all in front (W m^-2 sr^-1)
+uniform vec3 radiance = vec3(10.0);           // [0, 100 ..] tinted: L, alike toward all in front (W m^-2 sr^-1)
 
 Disk disk_from_place(vec3 place) {
     vec3 axis = target - position;
@@ -27,7 +29,7 @@ vec3 irradiance(vec3 place, vec3 normal) {
 }
 
 vec3 arriving(vec3 place, vec3 direction) {
-    return disk_met(disk_from_place(place), direction) ? radiance : vec3(0.0);
+    return disk_met(disk_from_place(place), direction, 0.0) ? radiance : vec3(0.0);
 }
 
 float density(vec3 place, vec3 direction) {

@@ -1,18 +1,19 @@
-// light   Polygon: a flat convex one of uniform radiance, from the side where its corners run counter-clockwise
+// light   Polygon: flat, convex, of uniform radiance; its front sees its corners run counter-clockwise
 // paper   J. H. Lambert, "Photometria", 1760; summed without cancellation, see lib/fan.glsl
 // sampled  by solid angle, uniform
-// note    irradiance within 1e-5 at any size; place minus corner in float32 limits the digits far out
+// note    irradiance within 1e-5 where it stands 0.03 rad above the horizon; far from the origin, float32
+//         keeps fewer digits of place - corner
 #include "lib/light.glsl"
 #include "lib/polygon.glsl"
 
-uniform int corners = 0;                     // {three, four, five, six}: how many, from a on
-uniform vec3 a = vec3(-0.5, 2.0, -0.5);      // [.. -10, 10 ..]: corner (m)
-uniform vec3 b = vec3(0.5, 2.0, -0.5);       // [.. -10, 10 ..]: corner (m)
-uniform vec3 c = vec3(0.0, 2.0, 0.5);        // [.. -10, 10 ..]: corner (m)
-uniform vec3 d = vec3(-0.25, 2.0, 0.25);     // [.. -10, 10 ..]: corner, of four or more (m)
-uniform vec3 e = vec3(-0.375, 2.0, 0.0);     // [.. -10, 10 ..]: corner, of five or more (m)
-uniform vec3 f = vec3(-0.45, 2.0, -0.25);    // [.. -10, 10 ..]: corner, of six (m)
-uniform vec3 radiance = vec3(10.0);          // [0, 100 ..] tinted: L, the same toward all in front (W m^-2 sr^-1)
+uniform int corners = 1;                  // {three, four, five, six}: how many, from a on
+uniform vec3 a = vec3(-0.5, 2.0, -0.5);   // [.. -10, 10 ..]: corner (m)
+uniform vec3 b = vec3(0.5, 2.0, -0.5);    // [.. -10, 10 ..]: corner (m)
+uniform vec3 c = vec3(0.5, 2.0, 0.5);     // [.. -10, 10 ..]: corner (m)
+uniform vec3 d = vec3(-0.5, 2.0, 0.5);    // [.. -10, 10 ..]: corner, of four or more (m)
+uniform vec3 e = vec3(-0.7, 2.0, 0.25);   // [.. -10, 10 ..]: corner, of five or more (m)
+uniform vec3 f = vec3(-0.7, 2.0, -0.25);  // [.. -10, 10 ..]: corner, of six (m)
+uniform vec3 radiance = vec3(10.0);       // [0, 100 ..] tinted: L, alike toward all in front (W m^-2 sr^-1)
 
 const int POLYGON_CORNERS = corners + 3;
 
@@ -37,7 +38,7 @@ vec3 irradiance(vec3 place, vec3 normal) {
 }
 
 vec3 arriving(vec3 place, vec3 direction) {
-    return radiance * polygon_seen(polygon_from(place), POLYGON_CORNERS, direction);
+    return polygon_met(polygon_from(place), POLYGON_CORNERS, direction, 0.0) ? radiance : vec3(0.0);
 }
 
 float density(vec3 place, vec3 direction) {

@@ -1,16 +1,17 @@
 // light   Quad: a rectangle of uniform radiance that radiates from its front, the side toward its target
 // paper   J. H. Lambert, "Photometria", 1760; summed without cancellation, see lib/fan.glsl
 // sampled  by solid angle, uniform
-// note    irradiance within 1e-5 at any size; place minus position in float32 limits the digits far out
+// note    irradiance within 1e-5 where it stands 0.03 rad above the horizon; far from the origin, float32
+//         keeps fewer digits of place - position
 #include "lib/light.glsl"
 #include "lib/polygon.glsl"
 
 uniform vec3 position = vec3(0.0, 3.0, 0.0);  // [.. -10, 10 ..]: its centre (m)
 uniform vec3 target = vec3(0.0);              // [.. -10, 10 ..]: what its front faces (m)
-uniform float turn = radians(0.0);            // [-180, 180 ..] degrees: about its axis; 0: its width lies level
+uniform float turn = radians(0.0);            // [-180, 180 ..] degrees: about its axis; 0: width level
 uniform float width = 1.0;                    // [0, 10 ..]: of the rectangle (m)
 uniform float height = 1.0;                   // [0, 10 ..]: of the rectangle (m)
-uniform vec3 radiance = vec3(10.0);           // [0, 100 ..] tinted: L, the same toward all in front (W m^-2 sr^-1)
+uniform vec3 radiance = vec3(10.0);           // [0, 100 ..] tinted: L, alike toward all in front (W m^-2 sr^-1)
 
 Polygon quad_from(vec3 place) {
     vec3 axis = target - position, toward = position - place;
@@ -35,7 +36,7 @@ vec3 irradiance(vec3 place, vec3 normal) {
 }
 
 vec3 arriving(vec3 place, vec3 direction) {
-    return radiance * polygon_seen(quad_from(place), 4, direction);
+    return polygon_met(quad_from(place), 4, direction, 0.0) ? radiance : vec3(0.0);
 }
 
 float density(vec3 place, vec3 direction) {

@@ -1,13 +1,14 @@
 // light   Sphere: a ball of uniform radiance
 // paper   J. Snyder, "Area light sources for real-time graphics", Microsoft Research, 1996
 // sampled  by solid angle, uniform
-// note    irradiance within 1e-5 from radius / distance 1e-4 up; inside, it surrounds: irradiance pi L
+// note    irradiance within 1e-5; inside, it surrounds, with irradiance pi L. Far from the origin, float32
+//         keeps fewer digits of place - position
 #include "lib/light.glsl"
 #include "lib/cap.glsl"
 
 uniform vec3 position = vec3(0.0, 3.0, 0.0);  // [.. -10, 10 ..]: its centre (m)
 uniform float radius = 0.5;                   // [0, 5 ..]: of the ball (m)
-uniform vec3 radiance = vec3(10.0);           // [0, 100 ..] tinted: L, the same in all directions (W m^-2 sr^-1)
+uniform vec3 radiance = vec3(10.0);           // [0, 100 ..] tinted: L, alike in all directions (W m^-2 sr^-1)
 
 // Its centre from a place: unit direction and distance; and sine and cosine of the angle it is seen under.
 void sphere_seen(vec3 place, out vec4 centre, out vec2 cap) {
@@ -34,7 +35,8 @@ Incident light(vec3 place, vec2 u) {
     float s = sqrt(off * (2.0 - off));
     vec3 c = centre.xyz;
     float side = c.z < 0.0 ? -1.0 : 1.0, k = -1.0 / (side + c.z), b = c.x * c.y * k;  // T. Duff et al., 2017
-    vec3 x = vec3(1.0 + side * c.x * c.x * k, side * b, -side * c.x), y = vec3(b, side + c.y * c.y * k, -c.y);
+    vec3 x = vec3(1.0 + side * c.x * c.x * k, side * b, -side * c.x);
+    vec3 y = vec3(b, side + c.y * c.y * k, -c.y);
     vec3 L = c * (1.0 - off) + s * (cos(phi) * x + sin(phi) * y);
     return Incident(L, radiance * (2.0 * PI * width));
 }
@@ -47,30 +49,30 @@ vec3 irradiance(vec3 place, vec3 normal) {
     return radiance * cap_irradiance(cap.x, cap.y, clamp(dot(normal, centre.xyz), -1.0, 1.0));
 }
 
-// Whether a direction meets it, and at which distance.
-bool sphere_met(vec3 place, vec3 direction, out float far) {
-    vec3 toward = position - place, across = cross(toward, direction);
-    float along = dot(toward, direction), square = radius * radius - dot(across, across);
+// Whether a direction meets it, or misses it by less than a slack of its distance; and at which distance.
+bool sphere_met(vec3 place, vec3 direction, float slack, out float far) {
+    vec3 toward = position - place;
+    float along = dot(toward, direction), across = length(cross(toward, direction));
     bool around = dot(toward, toward) < radius * radius;
-    far = along + (around ? 1.0 : -1.0) * sqrt(max(square, 0.0));
-    return around || (square >= 0.0 && along > 0.0);
+    far = along + (around ? 1.0 : -1.0) * sqrt(max((radius - across) * (radius + across), 0.0));
+    return around || (across <= radius + slack * along && along > 0.0);
 }
 
 vec3 arriving(vec3 place, vec3 direction) {
     float far;
-    return sphere_met(place, direction, far) ? radiance : vec3(0.0);
+    return sphere_met(place, direction, 0.0, far) ? radiance : vec3(0.0);
 }
 
 float density(vec3 place, vec3 direction) {
     vec4 centre;
     vec2 cap;
     sphere_seen(place, centre, cap);
-    float far;
-    return sphere_met(place, direction, far) ? 1.0 / (2.0 * PI * max(sphere_width(centre, cap), 1e-37)) : 0.0;
+    float far, width = max(sphere_width(centre, cap), 1e-37);
+    return sphere_met(place, direction, FAN_SLACK, far) ? 1.0 / (2.0 * PI * width) : 0.0;
 }
 
 float reach(vec3 place, vec3 direction) {
     float far;
-    bool met = sphere_met(place, direction, far);
+    bool met = sphere_met(place, direction, 0.0, far);
     return far;
 }
