@@ -13,8 +13,8 @@ CURVE = (*map(float, range(0, 90, 5)), 87.5, 89.0)  # degrees of the albedo curv
 def audit(model, instrument, seed=0):
     """Return the data sheet of a catalog.Shader as a dictionary of plain values.
 
-    claims    {name: claimed, verdict, worst, where}; verdict is "holds", "broken", "does not hold"
-              or "holds, unclaimed"
+    claims    {name: claimed, verdict, agrees, worst, what, where}; verdict is "holds", "broken",
+              "does not hold" or "holds, unclaimed"; agrees: whether the header may stay as it is
     hostile   evaluations and how many were NaN, infinite or negative, with the first place of each
     error     relative error against `reference` at default sliders and at all corners, or None
     albedo    {degrees, rgb, error} at default values; cost in ns, also of Lambert's model
@@ -105,7 +105,7 @@ def page(sheet, model, instrument, renderer, lang):
             words[name],
             words.get(said["claimed"], words["partly"]),
             words[said["verdict"]],
-            said["verdict"] in ("holds", "does not hold"),
+            said["agrees"],
         )
         for name, said in sheet["claims"].items()
     )

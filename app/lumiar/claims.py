@@ -30,7 +30,7 @@ class Findings:
         return self.worst[name].get(False, (0.0,))[0] > TOLERANCE[name]
 
     def verdicts(self):
-        """Return {claim: {claimed, verdict, worst, what, where}}; verdict as `audit.audit` says."""
+        """Return {claim: {claimed, verdict, agrees, worst, what, where}} as `audit.audit` does."""
         out = {}
         for name, worst in self.worst.items():
             claimed, limit = self.model.claims.get(name), TOLERANCE[name]
@@ -50,6 +50,8 @@ class Findings:
             out[name] = {
                 "claimed": "no" if claimed is None else claimed or "yes",
                 "verdict": verdict,
+                "agrees": verdict in ("holds", "does not hold")
+                or (verdict != "broken" and name in FREE),
                 "worst": amount,
                 "what": what,
                 "where": where,
@@ -62,7 +64,7 @@ class Findings:
         for name, said in self.verdicts().items():
             if said["verdict"] == "broken":
                 lines.append(f"claims '{name}', but {said['what']} at {said['where']}")
-            elif said["verdict"] == "holds, unclaimed" and name not in FREE:
+            elif not said["agrees"]:
                 condition = self.model.claims.get(name)
                 beyond = f" beyond ({condition})" if condition else ""
                 lines.append(f"'{name}' holds everywhere{beyond}; claim it")
