@@ -10,6 +10,7 @@ from lumiar import catalog, compose, flatten, glsltext
 from lumiar.errors import Mistake
 
 LIGHTS = catalog.names("light")
+PLAIN = [name for name in LIGHTS if not catalog.read("light", name).sampled]
 MODELS = catalog.names("model")
 RATES = tuple(compose.STAGES)
 WORD = re.compile(r"[A-Za-z_]\w*")
@@ -57,7 +58,7 @@ def code_and_marks(text):
 
 @pytest.mark.parametrize("rate", RATES)
 @pytest.mark.parametrize("model", [*MODELS, "anisotropic"])
-@pytest.mark.parametrize("lights", [(), ("ambient",), ("spot",), (*LIGHTS, "point", "spot")])
+@pytest.mark.parametrize("lights", [(), ("ambient",), ("spot",), (*PLAIN, "point", "spot", "quad", "sky")])
 @pytest.mark.parametrize("facts", [(True, True), (False, False)])
 def test_everything_declared_is_used(rate, model, lights, facts):
     shader = parsed(ANISOTROPIC) if model == "anisotropic" else model
@@ -79,7 +80,7 @@ def test_the_reference_compiler_takes_every_variant(model, tmp_path):
         if parameter.constant:
             values = parameter.choices or (True, False)
             variants += [{parameter.name: value} for value in values]
-    lights = [catalog.read("light", name) for name in LIGHTS]
+    lights = [catalog.read("light", name) for name in (*PLAIN, "sphere")]
     sources = [
         compose.surface(shader, lights, rate, constants, *facts)
         for rate in RATES
@@ -87,6 +88,21 @@ def test_the_reference_compiler_takes_every_variant(model, tmp_path):
         for facts in ((True, True), (False, False), (True, False), (False, True))
     ]
     glslang(sources, tmp_path)
+
+
+@pytest.mark.parametrize("model", ["lambert", "rough_conductor", "transparency"])
+def test_the_reference_compiler_takes_shadows_and_what_is_shown(model, tmp_path):
+    """Exact, drawn from both sides, and drawn from the light alone; lights themselves, too."""
+    shader = catalog.read("model", model)
+    lights = [catalog.read("light", name) for name in LIGHTS]
+    fixed = {f"corners_{i}": "five" for i in range(1, len(lights) + 1)}
+    numbers = [i for i, light in enumerate(lights, 1) if "light" in light.defines]
+    sources = [compose.surface(shader, lights, r, fixed, shadows=numbers) for r in RATES]
+    sources += [compose.surface(shader, lights, "phong", fixed, shows=s) for s in compose.SHOWS]
+    for i, light in enumerate(lights, 1):
+        if {"environment", "arriving"} & light.defines:
+            sources.append(compose.backdrop(light, i, fixed))
+    glslang([*sources, compose.screen("add", {})], tmp_path)
 
 
 @pytest.mark.parametrize("model", MODELS)
