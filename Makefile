@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 PYTHON := $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; do \
 	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p && break; done)
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
-DRAW := $(BIN)/python -c 'from lumiar.renderer import open_context; open_context()'
+DRAW := $(BIN)/python -c 'from lumiar.card import open_context; open_context()'
 
 
 .NOTPARALLEL:

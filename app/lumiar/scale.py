@@ -14,6 +14,7 @@ VIRIDIS = bytes.fromhex(
 )
 EMPTY, BROKEN = (96, 96, 96), (255, 0, 255)  # no surface; NaN or infinite
 DECADES = 3.0  # from which on a scale is logarithmic
+FAR_BELOW = 0.04  # of the largest value: half of them below it hide in one colour
 LONGEST = 6.0  # decades below the largest value, that a logarithmic one goes down to
 TICKS = 5
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -73,14 +74,15 @@ def fitting(values):
     """Return the Scale that shows values, an array without NaN, none of them below 0.
 
     Its ends are round. Linear, from 0 unless all is within the upper half of it; logarithmic where
-    a twentieth of the values that are not 0 lie DECADES below the largest.
+    a twentieth of the values that are not 0 lie DECADES below the largest, or half of them
+    FAR_BELOW it, as beside a lamp.
     """
     high = float(values.max(initial=0.0))
     if not high > 0.0:
         return Scale(0.0, 1.0, 0.2)
     positive = values[values > 0.0]
-    dim = float(np.quantile(positive, 0.05))
-    if dim < high * 10.0**-DECADES:
+    dim, middle = (float(x) for x in np.quantile(positive, (0.05, 0.5)))
+    if dim < high * 10.0**-DECADES or middle < FAR_BELOW * high:
         low = max(float(np.quantile(positive, 0.01)), high * 10.0**-LONGEST)
         return Scale(_round_digit(low, math.floor), _round_digit(high, math.ceil))
     low = float(values.min())
