@@ -58,7 +58,7 @@ def code_and_marks(text):
 
 @pytest.mark.parametrize("rate", RATES)
 @pytest.mark.parametrize("model", [*MODELS, "anisotropic"])
-@pytest.mark.parametrize("lights", [(), ("ambient",), ("spot",), (*PLAIN, "point", "spot", "quad", "sky")])
+@pytest.mark.parametrize("lights", [(), ("ambient",), ("spot",), (*PLAIN, "spot", "quad", "sky")])
 @pytest.mark.parametrize("facts", [(True, True), (False, False)])
 def test_everything_declared_is_used(rate, model, lights, facts):
     shader = parsed(ANISOTROPIC) if model == "anisotropic" else model

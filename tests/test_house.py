@@ -14,7 +14,8 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "errors",
     "files",
     "parameter cache supervise polygons reference_terms camera tomltext driverlog glsltext "
-    "difference contract image sheet gonio captions spectrum claims arguments factors scale occluders",
+    "difference contract image sheet gonio captions spectrum claims arguments factors scale "
+    "occluders",
     "catalog mesh reference_energy tables panels units estimates card legend readout",
     "formats shapes plots factor_table reference flatten daylight",
     "geometry compose parts materials hemisphere surroundings",

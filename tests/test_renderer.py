@@ -6,9 +6,8 @@ import numpy as np
 import oracle
 import pytest
 
-from lumiar import camera, layout
+from lumiar import camera, layout, stock
 from lumiar import renderer as module
-from lumiar import stock
 from lumiar.errors import Mistake
 from lumiar.parts import Panel
 from lumiar.picture import capture, radiance
