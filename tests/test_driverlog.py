@@ -5,7 +5,7 @@ The samples follow the forms that the drivers print; Mesa's are checked live in 
 
 import pytest
 
-from lumiar.compose import Source
+from lumiar.flatten import Source
 from lumiar.driverlog import locate
 
 LINES = (("", 0), *(("models/ward.glsl", n) for n in range(10, 30)))

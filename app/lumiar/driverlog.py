@@ -12,7 +12,7 @@ _FORMS = (
 def locate(log, sources):
     """Return the first error in a driver's log as (file, line, message).
 
-    sources is {stage: compose.Source}; which stage it was is read from the heading that moderngl
+    sources is {stage: flatten.Source}; which stage it was is read from the heading that moderngl
     puts above the log. The file is "" and the line 0 where the log names no line of ours.
     """
     stage = next((s for s in sources if f"{s}_shader" in log), None)
