@@ -5,8 +5,8 @@ The samples follow the forms that the drivers print; Mesa's are checked live in 
 
 import pytest
 
-from lumiar.flatten import Source
 from lumiar.driverlog import locate
+from lumiar.flatten import Source
 
 LINES = (("", 0), *(("models/ward.glsl", n) for n in range(10, 30)))
 SOURCES = {
