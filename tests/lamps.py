@@ -7,6 +7,7 @@ import moderngl
 import numpy as np
 
 from lumiar import catalog, compose, flatten, surroundings
+from lumiar.card import OnCard
 from lumiar.parts import Light
 
 WIDTH = 512  # of the picture whose pixels are the rows
@@ -88,13 +89,13 @@ def evaluated(context, light, what, rows):
             texture.use(unit)
             program[name].value = unit
             made.append(texture)
-    target = context.texture((WIDTH, high), 4, dtype="f4")
-    framebuffer = context.framebuffer([target])
+    framebuffer = context.framebuffer([context.texture((WIDTH, high), 4, dtype="f4")])
     framebuffer.use()
     array = context.vertex_array(program, [])
     array.render(moderngl.TRIANGLES, vertices=3)
     result = np.frombuffer(framebuffer.read(components=4, dtype="f4"), np.float32)
-    for one in (array, framebuffer, target, *made):  # not the program, which stays
+    OnCard(context)._free_framebuffer(framebuffer)
+    for one in (array, *made):  # not the program, which stays
         one.release()
     return result.reshape(-1, 4)[:count, :3].astype(float)
 

@@ -72,13 +72,13 @@ def made(renderer):
         texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
         texture.use(0)
         program["test_rows"].value, program["test_height"].value = 0, high
-        target = context.texture((WIDTH, high), 4, dtype="f4")
-        framebuffer = context.framebuffer([target])
+        framebuffer = context.framebuffer([context.texture((WIDTH, high), 4, dtype="f4")])
         framebuffer.use()
         array = context.vertex_array(program, [])
         array.render(moderngl.TRIANGLES, vertices=3)
         result = np.frombuffer(framebuffer.read(components=4, dtype="f4"), np.float32)
-        for one in (array, framebuffer, target, texture):
+        renderer._free_framebuffer(framebuffer)
+        for one in (array, texture):
             one.release()
         return result.reshape(-1, 4)[:count].astype(float)
 

@@ -153,7 +153,7 @@ def test_a_mirror_sends_back_what_fresnel_says_though_no_image_of_a_point_is_dra
 
 
 def test_the_angle_of_a_light_with_an_extent_is_that_of_its_middle(probed):
-    corners = "a=1,2,0:b=2,2,0:c=1.5,3,1"
+    corners = "corners=three:a=1,2,0:b=2,2,0:c=1.5,3,1"
     middles = {"sphere:position=1,2,1": (1, 2, 1), f"polygon:{corners}": (1.5, 7 / 3, 1 / 3)}
     found = probed(lit(*middles, "sun:height=30"))
     for light, middle in zip(found["lights"], middles.values(), strict=False):
