@@ -449,6 +449,22 @@ def test_what_is_released_twice_is_released_once():
         other.release()
 
 
+def test_after_a_scene_that_fails_the_one_before_is_drawn_as_it_was(renderer, monkeypatch):
+    from lumiar import occluders, settings
+
+    def fails(triangles):
+        raise Mistake("too many")
+
+    lights = (settings.light("sky"), settings.light("point:shadows=true"))
+    good = lit(size=(24, 24))._replace(lights=lights)
+    first = radiance(good, renderer)
+    with monkeypatch.context() as patch:
+        patch.setattr(occluders, "build", fails)
+        with pytest.raises(Mistake, match="too many"):
+            radiance(good.set(position=(1, 0, 0)), renderer)
+    assert first.any() and (radiance(good, renderer) == first).all()
+
+
 def test_progress_rises_to_one(renderer, monkeypatch):
     scene = lit(size=(50, 37))
     sheet = scene._replace(panels=(Panel(), Panel(), Panel()))

@@ -161,6 +161,7 @@ class Renderer(OnCard):
     def _jobs(self, scene, shows):
         """Return what it takes to draw a scene: its visible lights, then each object."""
         if self._drawn[0] is not scene or self._drawn[1] != shows:
+            self._drawn = (None, "", [])  # should this scene fail: what the last needs may be gone
             self._stock.make_room()
             entries = [self._stock.mesh(one) for one in scene.objects]
             placed = layout.arrange(scene, [entry[0] for entry in entries])

@@ -64,11 +64,11 @@ class Stock:
     def tables(self, scene, placed):
         """Return {name: texture} of all that the lights of a scene look up."""
         found, kept = {}, {}
-        for number, light in enumerate(scene.lights, 1):
-            for name, texels in layout.tables(light, number).items():
-                held = kept.get(id(texels)) or self._textures.pop(id(texels), None)
-                held = held or (texels, self._made(*texels))
-                kept[id(texels)], found[name] = held, held[1]
+        given = [layout.tables(light, number) for number, light in enumerate(scene.lights, 1)]
+        for name, texels in (pair for tables in given for pair in tables.items()):
+            held = kept.get(id(texels)) or self._textures.pop(id(texels), None)
+            held = held or (texels, self._made(*texels))
+            kept[id(texels)], found[name] = held, held[1]
         for _, texture in self._textures.values():  # of scenes before
             texture.release()
         self._textures = kept
@@ -88,9 +88,9 @@ class Stock:
         if self._hiding[0] != key:
             from . import occluders
 
+            made = occluders.build(_triangles(key))
             for texture in self._hiding[1].values():
                 texture.release()
-            made = occluders.build(_triangles(key))
             pairs = zip(
                 ("rig_nodes", "rig_corners"), (made.nodes, made.corners), made.sizes, strict=True
             )
