@@ -227,6 +227,12 @@ def test_the_command_prints_a_table_or_json(lumiar):
     assert "iluminância" in table and f"{found['illuminance_lx']:.5g} lx" in table
 
 
+def test_a_table_tells_what_is_no_number(probed):
+    found = probed(lit("point:intensity=100 cd"))
+    table = readout.text({**found, "irradiance_W_m2": math.nan}, "a scene", "en")
+    assert "nan W/m²" in table
+
+
 def test_json_has_null_for_what_is_no_number():
     found = {"a": [1.0, math.nan], "b": {"c": math.inf, "d": None}}
     assert json.loads(readout.as_json(found)) == {"a": [1.0, None], "b": {"c": None, "d": None}}

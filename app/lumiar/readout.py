@@ -87,4 +87,4 @@ def _list(numbers):
 
 
 def _number(x):
-    return "-" if x is None else f"{x:.5g}" if abs(x) > 1e-12 else "0"
+    return "-" if x is None else "0" if abs(x) <= 1e-12 else f"{x:.5g}"
