@@ -8,7 +8,7 @@ import sys
 from itertools import accumulate
 from typing import NamedTuple
 
-from . import daylight
+from . import daylight, units
 from .errors import Mistake, nearest
 from .files import ASSETS
 
@@ -186,7 +186,7 @@ def _weighed(pixels):
     """
     import numpy as np
 
-    weights = pixels.astype(np.float64) @ (0.2126729, 0.7151522, 0.0721750)
+    weights = pixels.astype(np.float64) @ units.LUMINANCE
     for axis, mode in ((1, "wrap"), (0, "edge")):
         pad = [(0, 0), (0, 0)]
         pad[axis] = (1, 1)

@@ -1,5 +1,4 @@
 #include "lib/angle.glsl"
-#include "lib/constants.glsl"
 
 // The sphere of directions as a rectangle, azimuth by angle from +y, and directions by chance from a
 // table of its cells. Row y of a table holds the chances of columns 0 to x, summed up, given that row;
@@ -11,17 +10,14 @@ struct Cell {
     float chance;  // that of the whole cell
 };
 
-// The azimuth about y of a direction, from +z toward +x, in (-PI, PI]. 1e-30: straight up is 0
+// The azimuth about y of a direction, from +z toward +x, in [-PI, PI]; straight up 0.
 float azimuth_of(vec3 direction) {
-    float a = angle_of(abs(direction.x), max(abs(direction.z), 1e-30));
-    a = direction.z < 0.0 ? PI - a : a;
-    return direction.x < 0.0 ? -a : a;
+    return azimuth(direction.x, direction.z);
 }
 
 // The angle between a direction and +y, in [0, PI].
 float polar_of(vec3 direction) {
-    float a = angle_of(length(direction.xz), max(abs(direction.y), 1e-30));
-    return direction.y < 0.0 ? PI - a : a;
+    return angle_between(length(direction.xz), direction.y);
 }
 
 // The size of a table in cells.

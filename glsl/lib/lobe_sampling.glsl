@@ -16,12 +16,3 @@ vec3 power_direction(float exponent, vec2 u) {
 float power_density(float lobe, float exponent) {
     return lobe * (exponent + 1.0) * 0.5 * INV_PI;
 }
-
-// A direction about (0, 0, 1) turned to be one about an axis. T. Duff et al., "Building an orthonormal
-// basis, revisited", Journal of Computer Graphics Techniques 6(1), 2017.
-vec3 about(vec3 axis, vec3 w) {
-    float side = axis.z < 0.0 ? -1.0 : 1.0, k = -1.0 / (side + axis.z), b = axis.x * axis.y * k;
-    vec3 T = vec3(1.0 + side * axis.x * axis.x * k, side * b, -side * axis.x);
-    vec3 B = vec3(b, side + axis.y * axis.y * k, -axis.y);
-    return T * w.x + B * w.y + axis * w.z;
-}

@@ -18,6 +18,15 @@ vec3 even_direction(vec2 u) {
     return vec3(s * cos(phi), s * sin(phi), z);
 }
 
+// A direction about (0, 0, 1) turned to be one about an axis. T. Duff et al., "Building an orthonormal
+// basis, revisited", Journal of Computer Graphics Techniques 6(1), 2017.
+vec3 about(vec3 axis, vec3 w) {
+    float side = axis.z < 0.0 ? -1.0 : 1.0, k = -1.0 / (side + axis.z), b = axis.x * axis.y * k;
+    vec3 T = vec3(1.0 + side * axis.x * axis.x * k, side * b, -side * axis.x);
+    vec3 B = vec3(b, side + axis.y * axis.y * k, -axis.y);
+    return T * w.x + B * w.y + axis * w.z;
+}
+
 // What a direction counts: scatter over its density; 0 where no light can leave.
 vec3 weighed(vec3 scatter, float density) {
     return density > 0.0 ? scatter / density : vec3(0.0);

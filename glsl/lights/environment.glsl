@@ -2,13 +2,14 @@
 // paper   M. Pharr, W. Jakob and G. Humphreys, "Physically based rendering", 4th ed., 2023, sec. 12.5
 // sampled  by a table of the picture's luminance times the solid angle
 // note    the middle of the picture is +z, its left quarter +x, its top row +y
+#include "lib/constants.glsl"
 #include "lib/equirect.glsl"
 #include "lib/light.glsl"
 
-uniform vec3 radiance = vec3(1.0);  // [0, 10 ..] tinted: what 1 in the picture stands for (W m^-2 sr^-1)
-uniform float turn = radians(0.0);           // [-360, 360] degrees: azimuth of the picture's middle, from +z toward +x
-uniform sampler2D picture;          // given: its RGB, top row first
-uniform sampler2D table;            // given: chances of cells: across and down the picture
+uniform vec3 radiance = vec3(1.0);   // [0, 10 ..] tinted: what 1 in the picture stands for (W m^-2 sr^-1)
+uniform float turn = radians(0.0);   // [-360, 360] degrees: azimuth of the picture's middle, from +z toward +x
+uniform sampler2D picture;           // given: its RGB, top row first
+uniform sampler2D table;             // given: chances of cells: across and down the picture
 
 // Where across and down the picture a direction is seen, in [0, 1].
 vec2 seen_at(vec3 direction) {

@@ -3,6 +3,7 @@
 // note    what reflects all light becomes invisible in it: the white furnace test
 #include "lib/constants.glsl"
 #include "lib/light.glsl"
+#include "lib/sampling.glsl"
 
 uniform vec3 radiance = vec3(1.0);  // [0, 5 ..] tinted: L, the same in every direction (W m^-2 sr^-1)
 
@@ -11,8 +12,7 @@ vec3 environment(vec3 direction) {
 }
 
 Incident light(vec3 place, vec2 u) {
-    float z = 1.0 - 2.0 * u.x, s = 2.0 * sqrt(u.x * (1.0 - u.x)), phi = 2.0 * PI * u.y;
-    return Incident(vec3(s * cos(phi), s * sin(phi), z), 4.0 * PI * radiance);
+    return Incident(even_direction(u), 4.0 * PI * radiance);
 }
 
 float density(vec3 place, vec3 direction) {

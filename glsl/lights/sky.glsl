@@ -2,6 +2,7 @@
 // paper   L. Hosek and A. Wilkie, "An analytic model for full spectral sky-dome radiance", SIGGRAPH 2012
 // sampled  by a table of the dome's luminance, alike on both sides of the sun
 // note    black below the horizon, where the model says nothing, and where it would be negative
+#include "lib/constants.glsl"
 #include "lib/equirect.glsl"
 #include "lib/light.glsl"
 

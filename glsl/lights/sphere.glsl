@@ -5,6 +5,7 @@
 //         keeps fewer digits of place - position
 #include "lib/light.glsl"
 #include "lib/cap.glsl"
+#include "lib/sampling.glsl"
 
 uniform vec3 position = vec3(0.0, 3.0, 0.0);  // [.. -10, 10 ..]: its centre (m)
 uniform float radius = 0.5;                   // [0, 5 ..]: of the ball (m)
@@ -33,11 +34,7 @@ Incident light(vec3 place, vec2 u) {
     sphere_seen(place, centre, cap);
     float width = sphere_width(centre, cap), off = u.x * width, phi = 2.0 * PI * u.y;
     float s = sqrt(off * (2.0 - off));
-    vec3 c = centre.xyz;
-    float side = c.z < 0.0 ? -1.0 : 1.0, k = -1.0 / (side + c.z), b = c.x * c.y * k;  // T. Duff et al., 2017
-    vec3 x = vec3(1.0 + side * c.x * c.x * k, side * b, -side * c.x);
-    vec3 y = vec3(b, side + c.y * c.y * k, -c.y);
-    vec3 L = c * (1.0 - off) + s * (cos(phi) * x + sin(phi) * y);
+    vec3 L = about(centre.xyz, vec3(s * cos(phi), s * sin(phi), 1.0 - off));
     return Incident(L, radiance * (2.0 * PI * width));
 }
 
