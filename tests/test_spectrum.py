@@ -246,6 +246,8 @@ def test_the_shader_has_the_same_constants(shader):
         "LUMENS": spectrum.LUMENS,
         "EFFICACY": units.EFFICACY,
     }
+    weights = re.search(r"const vec3 LUMINANCE = vec3\((.*)\);", text)[1]
+    assert tuple(map(float, weights.split(","))) == units.LUMINANCE
     found = shader("srgb_from_xyz(L)", np.eye(3)).T
     assert found == pytest.approx(np.array(spectrum._FROM_XYZ), rel=1e-6)
 

@@ -122,6 +122,7 @@ def of_light(light, time, number):
             light.values[TINT],
             light.temperature,
             light.illuminant,
+            f"light {number}: ",
         )
         values[f"{tinted.name}_{number}"] = struct.pack("3f", *rgb)
     given = _given(light)

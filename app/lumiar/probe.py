@@ -38,7 +38,6 @@ from . import geometry, layout, reflectance, units, variants
 from .errors import Mistake
 
 SAMPLES = 4096  # directions to a light with an extent
-UNIFORM = ("ambient", "furnace")  # kinds of light that are the same all around
 QUANTITIES = {  # name: its radiometric and its photometric key
     "radiance": ("radiance_W_m2_sr", "luminance_cd_m2"),
     "emitted": ("emitted_W_m2_sr", "emitted_cd_m2"),
@@ -157,7 +156,7 @@ def _lit(point, number, own):
     found |= {"efficacy_lm_W": efficacy}
     found |= _quantity("radiance", L, efficacy) | _quantity("irradiance", E, efficacy)
     found |= dict.fromkeys(OF_DIRECTIONS)
-    albedo, exact = None, light.kind.name in UNIFORM
+    albedo, exact = None, light.kind.name in units.UNIFORM
     middle = variants.middle(light)
     if middle:
         way = _unit(point.pixel(variants.lit_by(point.scene, [middle]), "toward"))

@@ -48,7 +48,7 @@ _UNITS = {  # what a unit measures; "lx" and "lm/m^2" are light that arrives and
     "cd/m^2": ("lm", -2, -1),
 }
 _SIGNS = str.maketrans("²¹⁻−·⋅*()", "21--     ")
-_UNIFORM = ("ambient", "furnace")  # the same radiance from everywhere
+UNIFORM = ("ambient", "furnace")  # kinds of light that are the same all around
 
 
 def luminance(rgb):
@@ -119,7 +119,7 @@ def allowed(native, kind):
         return native, "cd", *(("W", "lm") if kind in _SOLID_ANGLES else ())
     if native == "W/m^2":
         return native, "lx"
-    area, uniform = kind in _AREAS, kind in _UNIFORM
+    area, uniform = kind in _AREAS, kind in UNIFORM
     more = ("W", "lm", "W/m^2", "lm/m^2") if area else ("W/m^2", "lx") if uniform else ()
     return native, "cd/m^2", *more
 
@@ -171,11 +171,16 @@ def _cone(values):
     return math.pi * (min(inner, outer) + outer)
 
 
+def corners(values):
+    """Return the corners [m], (x, y, z) each, of a polygon light with such values."""
+    return [values[name] for name in "abcdef"[: _CORNERS[values["corners"]]]]
+
+
 def _polygon(values):
     """Return the area of the flat polygon of corners a, b, c … [m^2], half of |sum of p x q|."""
-    corners = [values[name] for name in "abcdef"[: _CORNERS[values["corners"]]]]
+    around = corners(values)
     total = [0.0, 0.0, 0.0]
-    for p, q in zip(corners, corners[1:] + corners[:1], strict=True):
+    for p, q in zip(around, around[1:] + around[:1], strict=True):
         for i in range(3):
             j, k = (i + 1) % 3, (i + 2) % 3
             total[i] += (p[j] * q[k] - p[k] * q[j]) / 2.0

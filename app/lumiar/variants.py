@@ -52,9 +52,8 @@ def middle(light):
     if sampled and "position" in values:
         return _plain("point", position=values["position"])
     if light.kind.name == "polygon":
-        count = ("three", "four", "five", "six").index(values["corners"]) + 3
-        corners = [values[name] for name in "abcdef"[:count]]
-        mean = (sum(axis) / count for axis in zip(*corners, strict=True))
+        corners = units.corners(values)
+        mean = (sum(axis) / len(corners) for axis in zip(*corners, strict=True))
         return _plain("point", position=tuple(mean))
     return light
 

@@ -3,6 +3,7 @@
 
 const float LUMENS = 683.002;      // of a watt where the eye is most sensitive, K_m (lm/W)
 const float EFFICACY = 176.80388;  // of CIE D65, which makes luminance of Lumiar's radiance (lm/W)
+const vec3 LUMINANCE = vec3(0.2126729, 0.7151522, 0.0721750);  // Y of linear sRGB, white being D65
 
 // M. Planck, 1901: spectral radiance of a black body [W m^-2 sr^-1 um^-1], as e^-x / (1 - e^-x), which
 // overflows nowhere; 4e-6 off at most where it is seen. 2hc^2 and hc/k are those of the SI of 2019.

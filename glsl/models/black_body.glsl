@@ -31,6 +31,6 @@ vec3 surround(vec3 V) {
 
 vec3 emitted(vec3 V) {
     vec3 radiance = black_body(temperature, wavelengths, observer == OBSERVER_FIT);
-    float whole = dot(radiance, vec3(0.2126729, 0.7151522, 0.0721750));
+    float whole = dot(radiance, LUMINANCE);
     return emissivity * (shown == SHOWN_COLOR ? radiance / whole : radiance);
 }
