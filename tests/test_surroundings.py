@@ -204,6 +204,7 @@ def test_an_image_that_cannot_be_used_is_told(tmp_path, written, monkeypatch):
     (tmp_path / "bad.hdr").write_bytes(b"no picture")
     assert "not a picture" in told(tmp_path / "bad.hdr")
     assert "column 3, row 2" in told(written(1.0 + _one_at(1, 2), "hot"))
+    assert "9000 x 1 pixels" in told(written(np.ones((1, 9000, 3)), "long"))
     monkeypatch.setattr(surroundings, "LIMIT", 31)
     assert "8 x 4 pixels" in told(written(np.ones((4, 8, 3)), "wide"))
 

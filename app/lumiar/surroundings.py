@@ -15,6 +15,7 @@ from .files import ASSETS
 FOLDER = os.path.join(ASSETS, "environments")
 DEFAULT = "venice"  # where a scene names no image
 LIMIT = 1 << 23  # pixels of an image: 4096 x 2048
+SIDE = 8192  # pixels of its longer side, that every driver takes
 BRIGHTEST = 1e20  # of a pixel: beyond, sums leave the range of a 32-bit float
 COLUMNS, ROWS = 512, 256  # of a table of chances, at most
 LEAST = 0.01
@@ -168,7 +169,7 @@ def _checked(pixels, path):
     import numpy as np
 
     high, wide = pixels.shape[:2]
-    if high * wide > LIMIT:
+    if high * wide > LIMIT or max(high, wide) > SIDE:
         raise Mistake(f"{path}: {wide} x {high} pixels; make it smaller, such as 4096 x 2048")
     good = (pixels <= BRIGHTEST).all(axis=2)  # nor is a NaN
     if not good.all():
