@@ -641,3 +641,20 @@ def test_a_hundred_meshes_are_not_all_kept():
             assert len(renderer._stock.meshes) <= stock.MESHES + 1
             assert len(renderer._stock.arrays) <= stock.MESHES + 8
         assert (radiance(scene.set(mesh="uv_sphere:rings=2"), renderer) == first).all()
+
+
+def test_a_model_may_call_things_as_the_library_of_a_light_does(renderer, tmp_path):
+    from lumiar import settings
+
+    header = "// model   Own\nuniform float k = 0.5;  // [0, 1]: factor (1/sr)\n"
+    names = "const float PI = 3.0;\nstruct Blade { float a; };\n#define FAN_SLACK 1.0\n"
+    names += "float azimuth(float y, float x) { return 0.0 * y; }\n"
+    main = "vec3 scatter(vec3 L, vec3 V) { return vec3(k * max(L.z, 0.0)MORE); }\n"
+    used = " + azimuth(L.y, L.x) + Blade(PI).a - 3.0 * FAN_SLACK"
+    lights = tuple(settings.light(text) for text in ("quad:shadows=true", "sky", "sphere"))
+    pictures = []
+    for i, text in enumerate((main.replace("MORE", ""), names + main.replace("MORE", used))):
+        (tmp_path / f"{i}.glsl").write_text(header + text)
+        scene = lit(model=str(tmp_path / f"{i}.glsl"), size=(16, 16))
+        pictures.append(radiance(scene._replace(lights=lights), renderer))
+    assert pictures[0].any() and (pictures[0] == pictures[1]).all()

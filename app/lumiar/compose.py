@@ -72,8 +72,9 @@ def surface(
         "LIT": lit,
         "FRAME": [load(frame)],
     }
+    apart = _clashes(model, lights)
     return {
-        stage: _watched(f"rigs/{file}", places, kinds, facts)
+        stage: _watched(f"rigs/{file}", places, kinds, facts, *apart)
         for stage, file in STAGES[rate].items()
     }
 
@@ -139,13 +140,47 @@ def screen(rig, constants):
     }
 
 
-def _watched(file, places, kinds, facts):
-    """Return the Source of a rig, which looks out for loops cut short if it draws any."""
-    strict = facts.get("strict", False)
-    source = finish(flatten(file, places, kinds, {**facts, "looping": False}), strict)
-    if not (loops(source) or places.get("LIT")):
-        return source
-    return finish(flatten(file, places, kinds, {**facts, "looping": True}), strict)
+def _watched(file, places, kinds, facts, names=(), paths=()):
+    """Return the Source of a rig, which looks out for loops cut short if it draws any.
+
+    names are those that files of such paths are to call otherwise, see `_clashes`.
+    """
+
+    def source(looping):
+        lines = flatten(file, places, kinds, {**facts, "looping": looping})
+        if names:
+            texts = _suffixed("\n".join(line for line, _, _ in lines), names, "lib").split("\n")
+            pairs = zip(lines, texts, strict=True)
+            lines = [(new if path in paths else old, path, n) for (old, path, n), new in pairs]
+        return finish(lines, facts.get("strict", False))
+
+    plain = source(False)
+    return source(True) if loops(plain) or places.get("LIT") else plain
+
+
+def _clashes(model, lights):
+    """Return (names, paths): what a model declares that is in the library of the lights, too, and
+    the files that are to call it otherwise: a model need not know what lights are made of."""
+    own, theirs = _library(model.text), {}
+    for light in lights:
+        theirs |= {name: one for name, one in _library(light.text).items() if name not in own}
+    declared = _declared(model.text) if theirs else set()
+    words = re.compile(rf"\b({'|'.join(declared) or '(?!)'})\b")
+    texts = [text for _, _, text in theirs.values() if words.search(text)]
+    names = declared & set().union(*map(_declared, texts))
+    return names, {path for path, _, _ in theirs.values()} | {light.path for light in lights}
+
+
+def _library(text):
+    """Return {name: (path, folder, text)} of the files that GLSL includes, directly or not."""
+    found, waiting = {}, [text]
+    while waiting:
+        for name in map(included, without_comments(waiting.pop()).split("\n")):
+            plain = name and re.fullmatch(r"lib/\w+\.glsl", name)  # others are refused later
+            if plain and name not in found and os.path.isfile(os.path.join(GLSL, name)):
+                found[name] = load(name)
+                waiting.append(found[name][2])
+    return found
 
 
 def _fixed(shader, constants, suffix=""):
