@@ -94,7 +94,7 @@ def evaluated(context, light, what, rows):
     array = context.vertex_array(program, [])
     array.render(moderngl.TRIANGLES, vertices=3)
     result = np.frombuffer(framebuffer.read(components=4, dtype="f4"), np.float32)
-    OnCard(context)._free_framebuffer(framebuffer)
+    OnCard(context).free_framebuffer(framebuffer)
     for one in (array, *made):  # not the program, which stays
         one.release()
     return result.reshape(-1, 4)[:count, :3].astype(float)

@@ -77,7 +77,7 @@ def made(renderer):
         array = context.vertex_array(program, [])
         array.render(moderngl.TRIANGLES, vertices=3)
         result = np.frombuffer(framebuffer.read(components=4, dtype="f4"), np.float32)
-        renderer._free_framebuffer(framebuffer)
+        renderer.free_framebuffer(framebuffer)
         for one in (array, texture):
             one.release()
         return result.reshape(-1, 4)[:count].astype(float)

@@ -237,7 +237,7 @@ def test_the_card_keeps_five_digits_at_any_size(side, distance, renderer):
         (np.array([0.6, 0, 0.8]), moved(LETTER_L - UP, -1, -1, 0) * side / 2 + distance * UP)
     ]
     for normal, polygon in shapes:
-        found = factor_card.evaluated(renderer.context, move(polygon), move(normal))
+        found = factor_card.evaluated(renderer, move(polygon), move(normal))
         assert found[::-1] == pytest.approx(closed(ORIGIN, normal, polygon), rel=1e-5)
 
 

@@ -67,7 +67,7 @@ class OnCard:
     def _free(self):
         """Free what the class itself has made, in the context."""
 
-    def _free_framebuffer(self, framebuffer):
+    def free_framebuffer(self, framebuffer):
         """Free a framebuffer and what is attached to it; one that goes while bound is an error."""
         context = self.context  # who shares it shares the idle one, which stays bound
         context.extra = context.extra or context.framebuffer([context.renderbuffer((1, 1))])

@@ -3,7 +3,7 @@
 import numpy as np
 
 from . import compose, factors
-from .card import compiled, open_context
+from .card import OnCard, compiled
 from .errors import Mistake
 from .polygons import Polygons, triangulate
 
@@ -20,11 +20,11 @@ def with_card(found, polygon):
     """
     point, normal = (np.array(found.facts["from"][key]) for key in ("point", "normal"))
     try:
-        context = open_context()
+        card = OnCard()
     except Mistake:  # no driver here, and all the other ways need none
         return found
-    F, omega = evaluated(context, polygon - point, normal)
-    context.release()
+    with card:
+        F, omega = evaluated(card, polygon - point, normal)
     values = dict(found.values)
     for key, value in (("omega", omega), ("F", F)):
         (exact, error), *_ = values[key].values()
@@ -34,15 +34,15 @@ def with_card(found, polygon):
     return found._replace(values=values)
 
 
-def evaluated(context, polygon, normal):
-    """Return (F, solid angle [sr]) of a polygon (n, 3) from a patch at the origin.
+def evaluated(card, polygon, normal):
+    """Return (F, solid angle [sr]) of a polygon (n, 3) from a patch at the origin, by an OnCard.
 
     One that is concave or has more than MOST corners is cut into triangles.
     """
     front = factors.facing(polygon, np.zeros((1, 3)))[0]
     if factors.plane(polygon)[0] @ front < 0.0:
         polygon = polygon[::-1]
-    total = np.zeros(2)
+    total, context = np.zeros(2), card.context
     with context:
         program = compiled(context, compose.screen("factor", {}))
         array = context.vertex_array(program, [])
@@ -58,8 +58,9 @@ def evaluated(context, polygon, normal):
             program["rig_corners"].value = len(part)
             array.render(vertices=3)
             total += np.frombuffer(target.read(components=4, dtype="f4"), np.float32)[:2]
-        for made in (array, program, *target.color_attachments, target):
-            made.release()
+        card.free_framebuffer(target)
+        array.release()
+        program.release()
     return total[0], total[1]
 
 

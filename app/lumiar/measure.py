@@ -54,7 +54,7 @@ class Instrument(OnCard):
         self._pairs = [one for one in self._pairs if one is not pairs]
 
     def _free_pairs(self, pairs):
-        self._free_framebuffer(pairs.target)
+        self.free_framebuffer(pairs.target)
         pairs.L.release()
         pairs.V.release()
 

@@ -244,7 +244,7 @@ class Renderer(OnCard):
 
     def _release_targets(self):
         for framebuffer in (f for pair in self._targets.values() for f in pair):
-            self._free_framebuffer(framebuffer)
+            self.free_framebuffer(framebuffer)
         self._targets.clear()
 
     def _check_size(self, width, height, side):
