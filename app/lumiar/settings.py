@@ -14,10 +14,9 @@ def changed(scene, key, value, where="", folder=""):
     """Return the scene with one value changed.
 
     key    a value of the scene (`exposure`) or of its camera (`camera.fov`); `model`, `material`,
-           `mesh` and
-           the values of objects (`rotation`), for all objects; `light`, which replaces all lights;
-           a parameter (`shininess`), for all objects whose model has it, else for all such lights;
-           or one of those behind the name or number of an object or light: `left.kd`,
+           `mesh` and the values of objects (`rotation`), for all objects; `light`, which replaces
+           all lights; a parameter (`shininess`), for all objects whose model has it, else for all
+           such lights; or one of those behind the name or number of an object or light: `left.kd`,
            `object.2.mesh`, `light.1.color`, `point.intensity`
     value  as a scene file has it, or text as on the command line
     folder where relative paths begin
