@@ -643,6 +643,21 @@ def test_a_hundred_meshes_are_not_all_kept():
         assert (radiance(scene.set(mesh="uv_sphere:rings=2"), renderer) == first).all()
 
 
+def test_lights_that_surround_add_up_for_the_eye_as_in_a_mirror(renderer):
+    from lumiar import settings
+
+    texts = ("furnace:radiance=1", "sun:height=0:azimuth=0", "furnace:radiance=2")
+    lights = tuple(settings.light(f"{text}:visible=true") for text in texts)
+    scene = lit(size=(33, 33), background=0.05)._replace(lights=lights).set(camera__fov=2.0)
+    scene = scene.set(camera__position=(0, 0, -9), camera__target=(0, 0, 0), scale=0.01)
+    aside = scene.set(object__1__position=(5, 0, 0))  # behind the object is the sun
+    one, hidden = radiance(aside, renderer), radiance(scene, renderer)
+    assert one[0, 0] == pytest.approx((3.0, 3.0, 3.0))
+    assert one[16, 16, 0] > 1e4 and hidden[16, 16, 0] < 10.0
+    alone = radiance(aside._replace(lights=lights[1:2]), renderer)[16, 16]
+    assert one[16, 16] - alone == pytest.approx((3.0 - 0.05,) * 3, abs=0.05)
+
+
 def test_a_model_may_call_things_as_the_library_of_a_light_does(renderer, tmp_path):
     from lumiar import settings
 

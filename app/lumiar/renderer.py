@@ -116,7 +116,6 @@ class Renderer(OnCard):
             radiance.color_attachments[0].use(0)
             total.use()
             self.context.enable_only(moderngl.BLEND)
-            self.context.blend_func = moderngl.ONE, moderngl.ONE
             array.render(moderngl.TRIANGLES, vertices=3)
         return total
 
@@ -130,6 +129,7 @@ class Renderer(OnCard):
         framebuffer.use()
         framebuffer.clear(*(scene.background if shows == "radiance" else (0.0,) * 3), 0.0)
         running = {"rig_pass": part, "rig_shift": shift}
+        self.context.blend_func = moderngl.ONE, moderngl.ONE
         for job in jobs:
             for member, value in job.uniforms:
                 member.write(value)
@@ -181,8 +181,11 @@ class Renderer(OnCard):
         return _Job(array, flags, winding, *_bound(program, values, textures))
 
     def _backdrops(self, scene, placed, textures):
-        """Return what it takes to draw the visible lights: first what surrounds, then shapes."""
-        jobs, fixed = [], layout.of_lights(scene)
+        """Return what it takes to draw the visible lights: first what surrounds, then shapes.
+
+        What is infinitely far away adds to what is there already, as in a mirror.
+        """
+        surrounding, shapes, fixed = [], [], layout.of_lights(scene)
         for number, light in enumerate(scene.lights, 1):
             if not light.visible:
                 continue
@@ -193,11 +196,13 @@ class Renderer(OnCard):
                 self._screens[key] = self.context.vertex_array(self._programs[key], [])
             values = layout.view(scene, placed) | layout.of_light(light, scene.time, number)
             around = "environment" in light.kind.defines
+            adds = bool(surrounding) if around else "reach" not in light.kind.defines
             flags = moderngl.NOTHING if around else moderngl.DEPTH_TEST
+            flags |= moderngl.BLEND if adds else moderngl.NOTHING
             bound = _bound(self._programs[key], values, textures)
             job = _Job(self._screens[key], flags, "ccw", *bound, 3)
-            jobs.insert(0 if around else len(jobs), job)
-        return jobs
+            (surrounding if around else shapes).append(job)
+        return surrounding + shapes
 
     def _program(self, scene, placed, shows):
         """Return the program for an object of a scene, compiled once."""
