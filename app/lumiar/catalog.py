@@ -165,7 +165,8 @@ def read(kind, name, where="", folder=""):
     if name.endswith(".frag" if kind == "rig" else ".glsl"):
         path = name = os.path.abspath(os.path.join(folder, os.path.expanduser(name)))
         if not os.path.exists(path):
-            raise Mistake(f"{where}no file {path}; name a GLSL file, or one of {names(kind)}")
+            known = ", ".join(names(kind))
+            raise Mistake(f"{where}no file {path}; name a GLSL file, or one of {known}")
     elif name in names(kind):
         path = os.path.join(GLSL, FOLDERS[kind], f"{name}.glsl")
     else:

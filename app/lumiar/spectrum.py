@@ -16,7 +16,6 @@ LUMENS = 683.002  # of a watt where the eye is most sensitive, K_m (lm/W); BIPM 
 FIRST, SECOND = 1.1910429723971884e8, 14387.768775039338  # 2hc^2 (W um^4 m^-2 sr^-1), hc/k (um K)
 STEFAN_BOLTZMANN = 5.670374419184429e-8  # W m^-2 K^-4
 ILLUMINANT_A = 2848.0 * SECOND / 14350.0  # K: named with the hc/k of 1931
-TEMPERATURES = (500.0, 1e5)  # K that `source` is for
 _STEP = 0.005  # of all tables (um)
 _LIMIT = 1 << 16  # bytes of a table
 _FROM_XYZ = (  # linear sRGB, IEC 61966-2-1, white being (0.95047, 1, 1.08883)
