@@ -15,7 +15,7 @@ ARCS = 512  # points of an edge's arc on the sphere
 COARSE, LEAST = 128, 4  # of a whole outline seen from each of many points, and of an edge in it
 SHADOWS = (20, 14)  # orders of the rules over a polygon whose difference is the error
 BATCH = 1 << 16  # rays at a time
-TRICE = 3.0  # hits that may have been missed where there is none, with 95 % confidence
+TRICE = 3.0  # hits, or misses, that may be lacking where there is none, with 95 % confidence
 
 
 class Estimate(NamedTuple):
@@ -113,7 +113,7 @@ def rays(point, normal, polygon, count, seed):
     """Return the Estimate of a patch by random rays: how many of them hit the polygon.
 
     Uniform over the sphere for solid angles, by the cosine to the normal for F. The error is a
-    standard error; where no ray hits, what then is excluded with 95 % confidence.
+    standard error; where none or all hit, what then is excluded with 95 % confidence.
     """
     rng, (tangent, across, _) = np.random.default_rng(seed), frame(normal)
     hits = np.zeros(3)
@@ -136,8 +136,8 @@ def _batches(count):
 
 def _share(hits, count, full):
     share = hits / count
-    if not hits:
-        return 0.0, full * min(1.0, TRICE / count)
+    if hits in (0, count):
+        return full * share, full * min(1.0, TRICE / count)
     return full * share, full * math.sqrt(share * (1.0 - share) / count)
 
 
