@@ -215,7 +215,7 @@ def _numbers(vector):
 
 def _ending(found):
     facts = found.facts
-    yield "errors: of Monte Carlo one standard error (if none or all hit: what 95 % confidence leaves);"
+    yield "errors: Monte Carlo, one standard error (no or all hits: what 95 % confidence leaves);"
     yield "of Nusselt's, what fewer points would change; of the closed form, estimated rounding"
     if "illuminance_of_1_cd_m2" in facts:
         lux = facts["illuminance_of_1_cd_m2"]
