@@ -14,13 +14,13 @@ def describe(name, as_json=False):
     A model or light, a mesh, a scene or a picture that carries one. Raises Mistake.
     """
     ending, ours = os.path.splitext(name)[1].lower(), geometry.shipped()
-    if ending == ".glsl" or name in (*catalog.names("model"), *catalog.names("light")):
-        facts = _shader(_read_shader(name))
-    elif ending in geometry.FORMATS or name.split(":")[0] in (
-        *geometry.SHAPES,
-        *geometry.shipped(),
-    ):
+    shaders = (*catalog.names("model"), *catalog.names("light"))
+    if ending in geometry.FORMATS or name.split(":")[0] in (*geometry.SHAPES, *ours):
         facts = _mesh(name)
+        if name in shaders:  # a sphere is a light, too
+            facts["light"] = _shader(_read_shader(name))
+    elif ending == ".glsl" or name in shaders:
+        facts = _shader(_read_shader(name))
     elif ending in (".toml", ".png") or name in scenefile.shipped():
         return _scene(name, as_json)
     else:
@@ -137,6 +137,8 @@ def _as_text(facts):
                 limits = ", ".join(p.get("choices", ())) or _range(p)
                 text = p["text"] + (f" ({p['unit']})" if p["unit"] else "")
                 lines.append(f"  {p['name']:12} {_value(p['default']):20} {limits:20} {text}")
+        elif key == "light":
+            lines += ["", *_as_text(value).split("\n")]
         elif key == "also":
             lines += [f"also {name:10} {allowed}" for name, allowed in value.items()]
         elif key == "claims":
