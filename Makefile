@@ -19,7 +19,7 @@ demo: $(VENV)/run driver
 	@echo "Look at demo/lumiar.png. One of its scenes alone: $(BIN)/lumiar capture teapot"
 
 test: $(VENV)/dev driver glslang style
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -n auto
 
 lint: $(VENV)/dev driver glslang style
 	$(BIN)/python -m pytest tests/test_house.py tests/test_compose.py

@@ -421,9 +421,9 @@ def test_a_chain_of_5000_nodes_ends_within_two_seconds():
     doc, blob = document(nodes=[*nodes, {"mesh": 0}])
     primitive(doc, blob, TRIANGLE)
     data = binary(doc, blob)
-    began = time.perf_counter()
+    began = time.process_time()
     read = gltf.read(data, "m.glb")
-    assert time.perf_counter() - began < 2
+    assert time.process_time() - began < 2
     assert triangles(read).tolist() == [[[count, 0, 0], [count + 1, 0, 0], [count, 1, 0]]]
 
 
@@ -432,11 +432,11 @@ def test_many_primitives_of_one_long_accessor_are_read_fast():
     found = primitive(doc, blob, np.tile(TRIANGLE, (50_000, 1)), [0, 1, 2])
     doc["meshes"][0]["primitives"] = [found] * 2000
     data = binary(doc, blob)
-    began = time.perf_counter()
+    began = time.process_time()
     read = gltf.read(data, "m.glb")
     assert len(read.sizes) == 2000
     assert len(read.positions) == 6000  # the unused ones are left out
-    assert time.perf_counter() - began < 2
+    assert time.process_time() - began < 2
 
 
 def test_what_is_not_used_is_noted():
@@ -837,6 +837,6 @@ def bombs():
 
 def test_bombs_are_refused_in_time_and_memory():
     for words, data in bombs():
-        began = time.perf_counter()
+        began = time.process_time()
         assert words in refused(data)
-        assert time.perf_counter() - began < 8, words
+        assert time.process_time() - began < 8, words

@@ -270,7 +270,7 @@ def test_many_small_statements_and_long_lines_are_read_fast():
     )
     fan = b"f" + b" 1 2 3" * 100_000  # one polygon of 300 000 corners
     spaces = b"v 0 0" + b" " * 2_000_000 + b" 0\n"
-    began = time.perf_counter()
+    began = time.process_time()
     assert len(obj.read(V + groups, "m.obj").sizes) == 20_000
     assert obj.read(V + fan, "m.obj").sizes.tolist() == [300_000]
     assert len(obj.read(V + spaces + F, "m.obj").positions) == 4
@@ -278,4 +278,4 @@ def test_many_small_statements_and_long_lines_are_read_fast():
         with pytest.raises(Mistake):
             obj.read(endless, "m.obj")
     assert obj.read(b"#" * 7_000_000 + b"\n" + V + F, "m.obj").sizes.tolist() == [3]
-    assert time.perf_counter() - began < 8  # 2 s at most here
+    assert time.process_time() - began < 8  # 2 s at most here

@@ -158,11 +158,11 @@ def test_a_malformed_file_is_refused_at_its_line(line, data):
 
 
 def test_long_files_end_fast():
-    began = time.perf_counter()
+    began = time.process_time()
     lines = b"".join(b"%d 0 0\n" % i for i in range(50_000))
     assert len(off.read(b"OFF\n50000 1 0\n" + lines + b"3 0 1 2\n", "m.off").positions) == 50_000
     for endless in (b"OFF " + b"4 " * 25_000_000, b"\n" * 25_000_000, b"#\n" * 25_000_000,
                     b"OFF\n4 2 0\n" + b"1 " * 25_000_000):  # fmt: skip
         with pytest.raises(Mistake):
             off.read(endless, "m.off")
-    assert time.perf_counter() - began < 8  # 2 s at most here
+    assert time.process_time() - began < 8  # 2 s at most here

@@ -394,7 +394,7 @@ def test_malformed_bytes_are_refused(words, data):
 
 
 def test_hostile_files_take_neither_time_nor_memory():
-    began = time.perf_counter()
+    began = time.process_time()
     tracemalloc.start()
     refused(b"ply\nformat ascii 1.0\n" + b"comment\n" * 5_000_000, 2 + (2**20 - 21) // 8 + 1)
     refused(b"ply\nformat ascii 1.0\ncomment " + b"x" * 50_000_000, 3)
@@ -417,14 +417,14 @@ def test_hostile_files_take_neither_time_nor_memory():
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert peak < 250e6
-    assert time.perf_counter() - began < 8  # 2 s at most here
+    assert time.process_time() - began < 8  # 2 s at most here
 
 
 def test_polygons_of_changing_size_are_read_fast():
-    began = time.perf_counter()
+    began = time.process_time()
     rows = [(0, 1, 2), (0, 1, 2, 3)] * 50_000
     assert ply.read(packed(rows=rows), "m.ply").sizes.tolist() == [3, 4] * 50_000
-    assert time.perf_counter() - began < 8  # 2 s at most here
+    assert time.process_time() - began < 8  # 2 s at most here
 
 
 @pytest.mark.parametrize("form", FORMATS[1:])

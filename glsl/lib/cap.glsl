@@ -3,12 +3,6 @@
 
 // A cap of directions, as a sphere is seen, by sine and cosine of its half-angle.
 
-// [sr]; 2 pi (1 - cos) keeps no digit of a small one (PHYSICS B.9)
-// sine, cosine: [0, 1]
-float cap_solid_angle(float sine, float cosine) {
-    return 2.0 * PI * sine * sine / (1.0 + cosine);
-}
-
 // A part of the rim of a cap that sets, for the fan around the point of the horizon below its top.
 // t: azimuth around the axis from the top; tau: where it sets; the others as below
 vec3 cap_rim_flux(float sine, float cosine, float z, float level, float up, float tau, vec3 t) {
