@@ -61,7 +61,7 @@ def test_a_wrong_signature_is_told_with_the_right_one(head):
 
 def test_a_light_with_a_wrong_signature_is_told_the_right_one():
     text = f"{LIGHT}Incident light(vec3 place) {{ return Incident(place, place); }}\n"
-    assert told(text, "light") == "4: write Incident light(vec3 position, vec2 u)"
+    assert told(text, "light") == "4: write Incident light(vec3 place, vec2 u)"
 
 
 @pytest.mark.parametrize(

@@ -102,6 +102,11 @@ def test_of_temperature_and_illuminant_the_last_one_holds():
         ),
         ('[[light]]\nkind = "environment"\nimage = "../a.hdr"', 3, "outside the folder"),
         ('ev100 = "bright"', 1, "ev100"),
+        ('[[light]]\nkind = "point"\nintensity = "8 lm"\nunit = "cd"', 4, "has a unit of its own"),
+        ('[[light]]\nkind = "point"\ncolor = 0\nintensity = "8 lm"', 4, "brighten its color"),
+        ('[[light]]\nkind = "quad"\nwidth = 0\nradiance = "8 lm"', 4, "make it larger"),
+        ('[[light]]\nkind = "environment"\nimage = "\\u0000.hdr"', 3, "no file has such a name"),
+        ('[[object]]\nmesh = "\\u0000.obj"', 2, "no file has such a name"),
     ],
 )
 def test_what_a_light_cannot_be_is_told_in_one_line(text, line, told):
@@ -451,3 +456,32 @@ def test_a_convex_body_alone_throws_no_shadow_on_itself(renderer, mesh, directio
     scene = scene.changed("light", f"directional:direction={direction}")
     bare, shadowed = (radiance(s, renderer) for s in (scene, scene.set(light__1__shadows=True)))
     assert np.allclose(bare, shadowed, rtol=1e-5, atol=1e-7)
+
+
+def test_many_shadows_are_compiled_in_a_moment(renderer):
+    """The rays' loops, copied for each of 16 lights, took compilers minutes: there is one copy."""
+    lights = "".join(
+        f"[[light]]\nkind = 'point'\nposition = [{i - 8}, 3, 1]\nintensity = 9\nshadows = true\n"
+        for i in range(16)
+    )
+    scene = parsed("size = [16, 16]\n" + lights)
+    shader = scene.lights[0].kind
+    sources = compose.surface(
+        scene.objects[0].model, [shader] * 16, "phong", {}, shadows=range(1, 17)
+    )
+    assert sources["fragment"].text.count("rig_blocked(") == 2  # the function, and one call
+    apart = [scene._replace(lights=(one,)) for one in scene.lights]
+    together = radiance(scene, renderer).astype(float)
+    floor = radiance(scene._replace(lights=()), renderer)
+    assert np.allclose(
+        sum(radiance(s, renderer) - floor for s in apart) + floor, together, atol=1e-5
+    )
+
+
+def test_a_sliver_above_the_horizon_is_not_dark_for_want_of_a_sample(renderer):
+    """With nothing in between, shadows change nothing, however few directions find the sliver."""
+    light = "quad:position=0,0.1,1:target=0,0.1,0:width=1:height=3:radiance=1:samples={}"
+    for count in (1, 4, 16):
+        bare = radiance(below(light.format(count)), renderer)
+        shadowed = radiance(below(light.format(count) + ":shadows=true"), renderer)
+        assert np.allclose(bare, shadowed, rtol=1e-5)

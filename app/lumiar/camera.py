@@ -116,8 +116,8 @@ def clip_planes(eye, target, spheres):
     """Return (near, far) depths that hold all (centre, radius) spheres and keep the depth fine.
 
     A depth is along the view, from the eye to the target. Near stands before the nearest sphere,
-    or, where the eye is within one, at a hundredth of the distance to the target; never below 1e-6
-    of far, where 24 bits of depth tell nothing apart.
+    or, where the eye is within one, at a hundredth of its radius or of the distance to the target;
+    never below 1e-6 of far, where 24 bits of depth tell nothing apart.
     """
     ahead = _unit(_minus(target, eye))
     depths = [(_dot(_minus(centre, eye), ahead), 1.01 * radius) for centre, radius in spheres]
@@ -125,7 +125,7 @@ def clip_planes(eye, target, spheres):
     distance = math.dist(eye, target)
     far = max((depth + radius for depth, radius in depths), default=2.0 * distance)
     near = min(
-        (depth - radius if depth > radius else 0.01 * distance for depth, radius in depths),
+        (d - r if d > r else 0.01 * min(distance, r) for d, r in depths),
         default=distance,
     )
     return min(max(near, 1e-6 * far), 0.999 * far), far

@@ -23,7 +23,7 @@ DEFINES = {
         "emitted": "vec3 emitted(vec3 V)",
     },
     "light": {
-        "light": "Incident light(vec3 position, vec2 u)",
+        "light": "Incident light(vec3 place, vec2 u)",
         "environment": "vec3 environment(vec3 direction)",
         "ambience": "vec3 ambience(vec3 normal)",
         "irradiance": "vec3 irradiance(vec3 place, vec3 normal)",

@@ -31,7 +31,7 @@ def surface(
     the position in the world, the direction to the eye or to the first light in the local frame, or
     the number of the object. Raises Mistake naming file:line.
     """
-    words = ("light", "rig_lit", "environment", "ambience", "arriving", "toward")
+    words = ("light", "rig_aimed", "rig_lit", "environment", "ambience", "arriving", "toward")
     kinds = {word: [] for word in words}
     lit = []  # the rig's text for lights with an extent or with shadows
     for i, light in enumerate(lights, 1):
@@ -46,7 +46,8 @@ def surface(
             continue
         kinds["toward"] += [f"light_{i}"][: shows == "toward" and not kinds["toward"]]
         if light.sampled or i in shadows:
-            kinds["rig_lit"].append(f"rig_lit_{i}")
+            word = "rig_lit" if light.sampled else "rig_aimed"
+            kinds[word].append(f"{word}_{i}")
             lit.append(_lit(model, light, i, constants, i in shadows))
         else:
             kinds["light"].append(f"light_{i}")
@@ -60,6 +61,7 @@ def surface(
         "emitted": "emitted" in model.defines,
         "sampled": any(light.sampled for light in lights),
         "shadowed": bool(shadows),
+        "aimed": bool(kinds["rig_aimed"]),
         **{word: word == shows for word in SHOWS},
     }
     frame = f"lib/frame_{'tangent' if facts['tangent'] else 'normal'}.glsl"

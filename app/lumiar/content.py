@@ -17,6 +17,8 @@ def confine(name, kind, folder, known, where):
     kind is mesh, model, light, image or scene; known maps names to SHA-256; a name that is no path
     is not looked at.
     """
+    if "\0" in name:
+        raise Mistake(f"{where}{name!r}: no file has such a name")
     if not name.lower().endswith(ENDINGS.get(kind, (".glsl",))):
         return  # the name of something that comes with Lumiar, or a mistake told later
     path = os.path.abspath(os.path.join(folder, os.path.expanduser(name)))

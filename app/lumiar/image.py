@@ -147,6 +147,7 @@ def _read_hdr(data):
     if not head.startswith(b"#?") or len(words) != 4 or (words[0], words[2]) != (b"-Y", b"+X"):
         raise ValueError("not a Radiance file with rows from the top")
     height, width = int(words[1]), int(words[3])
+    exposure = _hdr_exposure(head)
     if not 0 < height * width <= PIXEL_LIMIT:
         raise ValueError(f"{width} x {height} pixels; allowed: up to {PIXEL_LIMIT} in all")
     pixels, at = np.empty((height, width, 4), np.uint8), 0
@@ -168,7 +169,22 @@ def _read_hdr(data):
                 at += 1 + len(values)
                 x += run
     scale = np.where(pixels[..., 3] > 0, np.exp2(pixels[..., 3].astype(np.float64) - 136.0), 0.0)
-    return pixels[..., :3] * scale[..., None]
+    return pixels[..., :3] * (scale / exposure)[..., None]
+
+
+def _hdr_exposure(head):
+    """Return the factor that the values of a Radiance picture were multiplied by, by its header."""
+    said = [line.split(b"=", 1) for line in head.split(b"\n") if b"=" in line]
+    said = [(key.strip(), value.strip()) for key, value in said]
+    form = next((value for key, value in said if key == b"FORMAT"), b"32-bit_rle_rgbe")
+    if form != b"32-bit_rle_rgbe":
+        raise ValueError(f"holds {form.decode(errors='replace')}; convert it to 32-bit_rle_rgbe")
+    exposure = 1.0
+    for key, value in said:
+        exposure *= float(value) if key == b"EXPOSURE" else 1.0
+    if not 1e-30 < exposure < 1e30:
+        raise ValueError(f"EXPOSURE={exposure:g} is no factor")
+    return exposure
 
 
 def _read_display(data, path):

@@ -82,6 +82,10 @@ def shadows(scene):
     return tuple(i for i, light in enumerate(scene.lights, 1) if light.shadows)
 
 
+def _aims(scene):
+    return sum(light.shadows and not light.kind.sampled for light in scene.lights)
+
+
 def passes(scene):
     """Return over how many passes the directions to the lights of a scene are spread."""
     extended = [light for light in scene.lights if light.kind.sampled]
@@ -98,6 +102,7 @@ def uniforms(scene, placed, number=1):
         "rig_lead": _columns(camera.linear_part(placed.world), 3),
         "rig_eye": struct.pack("3f", *placed.eye),
         "rig_number": struct.pack("f", number),
+        "rig_aims": struct.pack("i", _aims(scene)),
         **packed(placed.object.model, placed.object.values, scene.time, ""),
     }
     for i, light in enumerate(scene.lights, 1):
@@ -112,19 +117,8 @@ def of_light(light, time, number):
     if light.unit or light.temperature or light.illuminant:
         from . import units
 
-        tinted = light.kind.tinted
-        rgb = units.tint(
-            light.kind.name,
-            tinted.unit,
-            light.values[tinted.name],
-            light.unit or tinted.unit,
-            light.values,
-            light.values[TINT],
-            light.temperature,
-            light.illuminant,
-            f"light {number}: ",
-        )
-        values[f"{tinted.name}_{number}"] = struct.pack("3f", *rgb)
+        rgb = units.radiant(light, f"light {number}: ")
+        values[f"{light.kind.tinted.name}_{number}"] = struct.pack("3f", *rgb)
     given = _given(light)
     plain = {f"{k}_{number}": v for k, v in given.items() if isinstance(v, bytes)}
     return values | plain

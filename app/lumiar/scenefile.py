@@ -232,6 +232,9 @@ def _light(file, index, data):
     _check_keys(data, [*catalog.OWN_KEYS["light"], *kind.defaults()], where)
     if "temperature" in data and "illuminant" in data:
         raise Mistake(f"{where('illuminant')}a temperature and an illuminant; leave one out")
+    named = kind.tinted.name if kind.tinted else "kind"  # which may have brought the unit along
+    if kind.tinted and "unit" in data and isinstance(data.get(named), str):
+        raise Mistake(f"{where('unit')}{named} has a unit of its own; leave one out")
     one = Light(kind, kind.defaults(), names["name"])
     for key, value in data.items():
         if key == "image":
@@ -241,7 +244,6 @@ def _light(file, index, data):
             one = settings.light_with(one, key, value, where(key), file.folder)
         elif key not in names:
             one = one._replace(values={**one.values, key: _given(kind, key, value, where(key))})
-    named = kind.tinted.name if kind.tinted else "kind"  # which may have brought the unit along
     return settings.checked(one, lambda key: where(key if key in data else named))
 
 

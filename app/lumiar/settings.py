@@ -187,6 +187,8 @@ def checked(one, where=""):
     if one.illuminant and one.illuminant not in (names := allowed["illuminant"].split(", ")):
         why = nearest(one.illuminant, names)
         raise Mistake(f"{at('illuminant')}no illuminant '{one.illuminant}'; {why}")
+    if one.unit:
+        units.radiant(one, at("unit"))  # tells of what is black, or has no extent
     return one
 
 

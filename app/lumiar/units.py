@@ -152,6 +152,22 @@ def tint(kind, native, number, given, values, color, temperature=None, illuminan
     return tuple(scale * channel for channel in filtered)
 
 
+def radiant(light, where=""):
+    """Return `tint` of a light: its unit, its values, its spectrum, as `parts.Light` has them."""
+    tinted = light.kind.tinted
+    return tint(
+        light.kind.name,
+        tinted.unit,
+        light.values[tinted.name],
+        light.unit or tinted.unit,
+        light.values,
+        light.values["color"],
+        light.temperature,
+        light.illuminant,
+        where,
+    )
+
+
 def _shape(kind, native, given, values):
     """Return how many of the given unit make one of the native unit, watts and lumens aside."""
     here, there = _UNITS[given][1:], _UNITS[native][1:]

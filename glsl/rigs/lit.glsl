@@ -2,12 +2,15 @@
 // each such light, with the light's own functions, and keeps the lines that this light needs.
 uniform int samples;  // where summed
 
-vec3 rig_lit(vec3 position, Frame frame, vec3 V) {
+// What a light without an extent sends, and how far a shadow ray toward it goes.
+Incident rig_aimed(vec3 position, out float far) {  // where not extended
     Incident incident = light(position, vec2(0.5));  // where not extended
-    float far = 1e30;  // where not extended and not near
-    float far = reach(position, incident.direction);  // where not extended and near
-    if (rig_blocked(position, incident.direction, far)) return vec3(0.0);  // where not extended
-    return rig_reflected(incident, frame, V);  // where not extended
+    far = 1e30;  // where not extended and not near
+    far = reach(position, incident.direction);  // where not extended and near
+    return incident;  // where not extended
+}  // where not extended
+
+vec3 rig_lit(vec3 position, Frame frame, vec3 V) {  // where extended
     vec3 N = vec3(0.0, 0.0, 1.0);  // where exact
     vec3 whole = irradiance(position, from_local(N, frame)) * scatter(N, V);  // where exact
     return whole;  // where exact and not hidden
@@ -33,6 +36,8 @@ vec3 rig_lit(vec3 position, Frame frame, vec3 V) {
         if (lost || rig_blocked(position, way, far)) share = vec3(0.0);  // where balanced and hidden
         sum += share;  // where balanced
     }  // where summed
-    sum = whole * (sum / unhidden) * float(last - first);  // where summed and exact
+    // Where no direction came out above the horizon nothing tells what is hidden: then nothing is.
+    sum = whole * (unhidden == vec3(1e-30) ? vec3(1.0) : sum / unhidden);  // where summed and exact
+    sum *= float(last - first);  // where summed and exact
     return sum * (float(rig_pass.y) / float(samples));  // where summed
-}
+}  // where extended

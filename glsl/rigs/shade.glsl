@@ -36,6 +36,21 @@ float rig_balance(float own, float other) {
 
 #include "LIT"
 
+uniform int rig_aims;  // how many lights without an extent cast shadows
+
+// One after the other in one loop: the rays' own loops, copied for each of them, take compilers minutes.
+vec3 rig_shadowed(vec3 position, Frame frame, vec3 V) {
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < rig_aims; ++i) {
+        int next = 0;
+        float far = 0.0;
+        Incident incident = Incident(vec3(0.0), vec3(0.0));
+        if (i == next++) incident = rig_aimed(position, far);  // each rig_aimed
+        if (!rig_blocked(position, incident.direction, far)) sum += rig_reflected(incident, frame, V);
+    }
+    return sum;
+}
+
 // An interpolated normal may lean away from the eye where a coarse mesh turns away: an opaque surface
 // is then seen at the horizon, not from behind, where models are black.
 vec3 rig_radiance(vec3 position, Frame frame) {
@@ -50,6 +65,7 @@ vec3 rig_radiance(vec3 position, Frame frame) {
     return to_local(toward(position, vec2(0.5)).direction, frame);  // each toward
     vec3 radiance = vec3(0.0);
     radiance += rig_reflected(light(position, vec2(0.5)), frame, V);  // each light
+    radiance += rig_shadowed(position, frame, V);  // where aimed
     radiance += rig_lit(position, frame, V);  // each rig_lit
     radiance += surround(V);  // where surround
     radiance += emitted(V);  // where emitted
