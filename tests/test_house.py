@@ -16,15 +16,15 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "parameter cache supervise polygons reference_terms camera tomltext driverlog glsltext "
     "difference contract image sheet gonio captions spectrum claims arguments factors scale "
     "occluders",
-    "catalog mesh reference_energy tables panels units estimates card legend readout",
+    "catalog mesh reference_energy tables panels units estimates card legend slide readout",
     "formats shapes plots factor_table reference flatten daylight",
     "geometry compose parts materials hemisphere surroundings",
     "settings factor_card layout content variants",
     "scenefile stock",
     "scene",
-    "renderer report",
-    "picture options measure views",
-    "hostile measuring falsecolour reflectance",
+    "renderer lesson",
+    "picture options measure views report",
+    "hostile measuring falsecolour reflectance deck",
     "examine probe",
     "audit",
     "verbs",
@@ -36,7 +36,7 @@ GL = {"moderngl", "glcontext"}
 HOMES = {  # a heavy library and the modules that may know it
     "moderngl": {"card", "stock", "renderer"},
     "glcontext": {"card"},
-    "PIL": {"image", "sheet", "legend"},
+    "PIL": {"image", "sheet", "legend", "slide"},
     "isal": {"image", "cache"},
     "flip_evaluator": {"difference"},
     "matplotlib": {"panels", "plots"},
@@ -125,7 +125,7 @@ def test_nothing_is_left_open():
 
 
 def test_every_asset_folder_names_its_sources():
-    for folder in ("meshes", "fonts", "spectra", "sky", "environments"):
+    for folder in ("meshes", "fonts", "spectra", "sky", "environments", "lessons"):
         sources = (ROOT / "assets" / folder / "SOURCES.md").read_text()
         for path in (ROOT / "assets" / folder).iterdir():
             if path.name not in ("SOURCES.md", "LICENSE.txt"):

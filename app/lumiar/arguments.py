@@ -234,8 +234,17 @@ def _steps(text):
     raise argparse.ArgumentTypeError(f"'{text}' is not LOW:HIGH:STEP in degrees, as in -90:90:1")
 
 
+def _lesson(parser):
+    parser.add_argument("lesson", metavar="LESSON", help="`lumiar list lessons`, or a .toml file")
+    text = "for its slides, .png each (default: the lesson's name)"
+    parser.add_argument("-o", "--output", metavar="FOLDER", help=text)
+    parser.add_argument("--lang", choices=("en", "pt"), help="language of the slides")
+    parser.add_argument("--size", metavar="WxH", help="pixels (default: 1920x1080)")
+    _timeout(parser)
+
+
 def _list(parser):
-    kinds = ("models", "lights", "meshes", "materials", "scenes")
+    kinds = ("models", "lights", "meshes", "materials", "scenes", "lessons")
     parser.add_argument("kind", nargs="?", choices=kinds)
     parser.add_argument("--json", action="store_true", help="with every parameter, for programs")
 
@@ -249,5 +258,6 @@ _VERBS = {
     "audit": ("Test what models claim, and how exact and fast they are; exit 1 if broken.", _audit),
     "measure": ("Measure models at any angles, as a gonioreflectometer would.", _measure),
     "formfactor": ("Tell solid angles and form factors from a patch or a polygon.", _formfactor),
+    "lesson": ("Draw a lesson as slides, a question before each answer.", _lesson),
     "list": ("List what there is to choose from.", _list),
 }

@@ -277,7 +277,7 @@ def settings_of(given, scene, folder, content, where):
     if not isinstance(given, dict):
         raise Mistake(f"{where}set = {given!r}; write set = {{ key = value, … }}")
     values = []
-    for key, value in given.items():
+    for key, value in settings.models_first(given.items()):
         kind = key.rpartition(".")[2]
         name, *rest = settings.light_parts(str(value)) if kind == "light" else [str(value)]
         named = [(name, kind)] if kind in ("mesh", "model", "light", "image") else []

@@ -9,6 +9,8 @@ from . import options as given
 from .errors import Mistake
 from .supervise import limit_time
 
+LESSON_TIME = 600.0  # seconds: dozens of pictures
+
 
 def capture(options):
     """Draw a scene to a picture and print its path."""
@@ -144,6 +146,29 @@ def compare(options):
         if options.output:
             print(f"{options.output}  (white: {white:.6g})")
     return 1 if over else 0
+
+
+def lesson(options):
+    """Draw a lesson as slides into a folder and print their paths."""
+    from . import deck, scenefile
+    from . import lesson as lessons
+    from .parts import SCENE
+    from .renderer import Renderer
+
+    limit_time(options.timeout or LESSON_TIME)
+    one = lessons.load(options.lesson, os.getcwd())
+    size = SCENE["size"].read(options.size or "1920x1080", "--size: ")
+    folder = options.output or one.name
+    if os.path.exists(folder) and not os.path.isdir(folder):
+        raise Mistake(f"{folder}: is a file; name a folder for the slides with -o")
+    lang = options.lang or scenefile.system_language()
+    with Renderer() as renderer:
+        paths, broken = deck.write(one, folder, lang, size, renderer, _Progress(folder))
+    print(*paths, sep="\n")
+    if broken:
+        text = f"{broken} pixels have no finite radiance (NaN or infinite); they are magenta"
+        print(f"lumiar: {folder}: {text}", file=sys.stderr)
+    return 0
 
 
 def list(options):
