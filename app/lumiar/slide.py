@@ -20,7 +20,7 @@ ROW, UNDER = 450, 60  # heights of several pictures and of the captions below th
 LARGEST, SMALLEST, LEADING = 44, 30, 1.36  # letters of a text, and its lines
 FORMULA = 54  # letters of a formula, where there is room
 SMALLEST_SIZE = (640, 360)
-_TIED = re.compile(r" (?=[=≤≥≈+−^%] ?)|(?<= [=≤≥≈+−^]) |(?<=\d) (?=\d{3}\b)")  # no line ends here
+_TIED = re.compile(r" (?=[=≤≥≈+−^%] ?)|(?<= [=≤≥≈+−^]) |(?<=\bcos) |(?<=\d) (?=\d{3}\b)")
 
 
 class Box(NamedTuple):
@@ -107,7 +107,7 @@ def _font(size):
 
 def _wrapped(text, font, width):
     """Return the lines of a text no wider than `width`, [] if a word is."""
-    lines, row = [], ""
+    lines, row = [], ""  # none ends within a formula or a number
     for word in _TIED.sub("\u00a0", text).split(" "):
         longer = f"{row} {word}".strip(" ")
         if row and font.getlength(longer) > width:
@@ -192,8 +192,8 @@ class _Canvas:
             whole = bool(lines) == bool(text) and bool(inner) == bool(box)
             if whole and need <= room[1]:
                 return letters, lines, inner
-        said = (text or box.text)[:40]
-        raise Mistake(f"'{said}…' has no room on a slide; write less")
+        said = box.text if box and (lines or not text) else text  # the longer one, or a long word
+        raise Mistake(f"'{said[:40]}…' has no room on a slide; write less")
 
     def _write(self, lines, x, y, letters, colour, stroke=0):
         """Write lines from a place downwards, and return where the next one would stand."""
