@@ -337,6 +337,15 @@ def test_symbols_are_those_of_the_papers(name, text, letter, below):
     assert notation.symbol(name, text) == (letter, below)
 
 
+@pytest.mark.parametrize("kind, name", every_shader(), ids=lambda word: word)
+def test_a_domain_is_written_as_in_the_file(kind, name):
+    shader = catalog.read(kind, name)
+    lines = shader.text.split("\n")
+    for parameter in shader.parameters:
+        if parameter.widget in ("slider", "choice") and parameter.line:
+            assert notation.domain(parameter) in lines[parameter.line - 1]
+
+
 def test_units_are_printed_with_raised_digits():
     assert notation.unit("W m^-2 sr^-1") == "W m⁻² sr⁻¹"
     assert (notation.unit("unitless"), notation.unit("degrees")) == ("", "°")

@@ -47,6 +47,15 @@ def unit(text):
     return {"unitless": "", "degrees": "°"}.get(text, text)
 
 
+def domain(one):
+    """Return the values that a Parameter takes, written as in GLSL files: "[1, 1000 ..] log"."""
+    if one.widget not in ("slider", "color"):
+        return ", ".join(one.choices)
+    low, high = (f"{end:g}" for end in (one.low, one.high))
+    low, high = ".. " * one.open[0] + low, high + " .." * one.open[1]
+    return f"[{low}, {high}]" + " log" * one.log
+
+
 def shown(value):
     """Return a value as the panel writes it."""
     if isinstance(value, (tuple, list)):

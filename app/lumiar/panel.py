@@ -10,9 +10,9 @@ from . import (
     catalog,
     editing,
     geometry,
+    labels,
     materials,
     notation,
-    rows,
     scenefile,
     settings,
     spectrum,
@@ -59,8 +59,8 @@ def prepare(size=16.0):
     style = imgui.get_style()
     style.font_size_base = size
     style.frame_rounding = style.grab_rounding = style.popup_rounding = 3.0
-    style.window_rounding = 0.0
     style.set_color_(imgui.Col_.window_bg, (0.09, 0.1, 0.12, 0.97))
+    style.set_color_(imgui.Col_.popup_bg, (0.05, 0.06, 0.07, 1.0))
     style.set_color_(imgui.Col_.frame_bg, (0.19, 0.21, 0.25, 1.0))
     for grab in (imgui.Col_.slider_grab, imgui.Col_.slider_grab_active):
         style.set_color_(grab, (0.2, 0.42, 0.75, 1.0))
@@ -131,7 +131,7 @@ def _object(scene, state, words):
             scene = _set(scene, state, f"{key}.{name}", got)
     one = scene.objects[state.chosen]
     imgui.push_id(one.model.name)
-    scene = _parameters(scene, state, words, key, one.model.parameters, one)
+    scene = _parameters(scene, state, words, key, one.model, one.model.parameters, one.values)
     if imgui.small_button(words["reset all"]):
         scene = editing.reset(scene, "object", state.chosen)
     imgui.pop_id()
@@ -158,7 +158,7 @@ def _lights(scene, state, words):
             gone = i if imgui.small_button(words["remove"]) else gone
             imgui.tree_pop()
     imgui.set_next_item_width(-1.0)
-    got = rows.choice("add", words["add"], _kinds, words["light hint"])
+    got = labels.choice("add", words["add"], _kinds, words["light hint"])
     if got is not None:
         scene = _tried(scene, state, lambda: editing.with_light(scene, got, os.getcwd()))
     return scene if gone is None else editing.without_light(scene, gone)
@@ -173,7 +173,7 @@ def _light(scene, state, words, i):
             return scene
     own = settings.own_keys(one.kind)
     parameters = [editing.in_unit(one) if p.tinted else p for p in one.kind.parameters]
-    scene = _parameters(scene, state, words, key, parameters, one)
+    scene = _parameters(scene, state, words, key, one.kind, parameters, one.values)
     if "unit" in own:
         native = units.unit(one.kind.tinted.unit)
         options = [(name, notation.unit(name)) for name in own["unit"].split(", ")]
@@ -200,8 +200,8 @@ def _picture(scene, state, words):
     """Draw what the picture as a whole is made with."""
     if not _section("picture", words):
         return scene
-    rows.row("samples", words, tip=SCENE["samples"].text)
-    samples = rows.pick("samples", scene.samples, _SQUARES)
+    labels.row("samples", words, tip=SCENE["samples"].text)
+    samples = labels.pick("samples", scene.samples, _SQUARES)
     scene = scene if samples == scene.samples else _set(scene, state, "samples", samples)
     others = [SCENE[name] for name in editing.PICTURE if name != "samples"]
     scene = _values(scene, state, words, "", others, scene._asdict())
@@ -227,11 +227,10 @@ def _section(name, words, opened=True):
     return imgui.collapsing_header(f"{words[name]}###{name}", flags)
 
 
-def _parameters(scene, state, words, key, parameters, one):
+def _parameters(scene, state, words, key, shader, parameters, values):
     """Draw a row for each parameter of a model or a light; the paper stands in the tooltips."""
-    shader = one.model if hasattr(one, "model") else one.kind
     paper = shader.header.get("paper", "")
-    return _values(scene, state, words, f"{key}.", parameters, one.values, paper)
+    return _values(scene, state, words, f"{key}.", parameters, values, paper)
 
 
 def _values(scene, state, words, prefix, parameters, values, note=""):
@@ -248,9 +247,9 @@ def _values(scene, state, words, prefix, parameters, values, note=""):
 
 
 def _list(name, words, current, options, hint="", note=""):
-    """Draw a named list to choose from; see `rows.choice`."""
-    rows.row(name, words, tip=note)
-    return rows.choice(name, current, options, hint)
+    """Draw a named list to choose from; see `labels.choice`."""
+    labels.row(name, words, tip=note)
+    return labels.choice(name, current, options, hint)
 
 
 def _set(scene, state, key, value):

@@ -4,8 +4,8 @@ import math
 
 from imgui_bundle import imgui
 
-from . import rows
-from .notation import angles, decoded, encoded, shown, toward, unit
+from . import labels
+from .notation import angles, decoded, domain, encoded, shown, toward, unit
 from .parameter import SIZES
 
 _AXES = ((1.0, 0.55, 0.5, 1.0), (0.55, 0.9, 0.5, 1.0), (0.55, 0.7, 1.0, 1.0), (0.8, 0.8, 0.8, 1.0))
@@ -24,7 +24,7 @@ def edit(one, value, words, note="", start=None, time=0.0):
     marked = _default(one, words) if value != one.default and one.widget != "time" else None
     several = SIZES[one.type] > 1 and one.widget == "slider"
     ending = unit("degrees" if one.degrees else one.unit) if several else ""
-    if rows.row(one.name, words, one.text, lambda: _about(one, words, note), marked, ending):
+    if labels.row(one.name, words, one.text, lambda: _about(one, words, note), marked, ending):
         value = one.default
     elif one.default is None:
         value = _optional(one, value, words, start)
@@ -159,10 +159,10 @@ def _ball(direction, side):
             at = (middle[0] + x * radius * (1 - step), middle[1] - y * radius * (1 - step))
             ink.add_circle_filled(at, radius * step, color((1.0, 0.9, 0.6, 0.22)))
     end = (middle[0] + 0.9 * x * radius, middle[1] - 0.9 * y * radius)
-    ink.add_line(middle, end, color(rows.BRIGHT), 2.0)
+    ink.add_line(middle, end, color(labels.BRIGHT), 2.0)
     draw = ink.add_circle_filled if z >= 0.0 else ink.add_circle
-    draw(end, 0.13 * radius + 1.0, color(rows.BRIGHT))
-    ink.add_circle(middle, radius - 1.0, color(rows.DIM))
+    draw(end, 0.13 * radius + 1.0, color(labels.BRIGHT))
+    ink.add_circle(middle, radius - 1.0, color(labels.DIM))
 
 
 def _toggle(one, value, words):
@@ -170,7 +170,7 @@ def _toggle(one, value, words):
 
 
 def _choice(one, value, words):
-    return rows.pick("value", value, one.choices)
+    return labels.pick("value", value, one.choices)
 
 
 _WIDGETS = {"color": _color, "direction": _direction, "toggle": _toggle, "choice": _choice}
@@ -198,11 +198,11 @@ def _about(one, words, note):
     ending = unit("degrees" if one.degrees else one.unit)
     imgui.text(f"{one.name} [{ending}]" if ending else one.name)
     imgui.text(words["texts"].get(one.text, one.text))
-    log = ", log" if one.log else ""
-    imgui.text_colored(rows.DIM, f"{words['allowed']}: {one.allowed()}{log}")
-    imgui.text_colored(rows.DIM, f"{words['default']}: {_default(one, words)}")
+    if domain(one):
+        imgui.text_colored(labels.DIM, f"{words['allowed']}: {domain(one)}")
+    imgui.text_colored(labels.DIM, f"{words['default']}: {_default(one, words)}")
     if not one.constant:
-        imgui.text_colored(rows.DIM, words["typed"])
+        imgui.text_colored(labels.DIM, words["typed"])
     if note:
         imgui.separator()
-        imgui.text_colored(rows.DIM, note)
+        imgui.text_colored(labels.DIM, note)
