@@ -51,6 +51,50 @@ def test_every_parameter_has_its_widget_and_looking_changes_nothing(hand, kind, 
     assert one.scene is scene
 
 
+ODD = """// model   Odd 100 % own
+uniform float share = 0.5;              // [0, 1]: 100 %s of 50 %d (%)
+uniform float far = 1.0;                // [0, 1e300 ..]: as far as can be (m)
+uniform float tiny = 2e-20;             // [1e-20, 1e20] log: many decades (K^4)
+uniform vec2 pair = vec2(0.5);          // [0, 1]: two (%n)
+uniform vec4 four = vec4(0.0);          // [.. -1e-9, 1e-9]: four
+uniform int many = 7;                   // [.. -4000000000, 4000000000 ..]: a lot
+uniform int few = 2;                    // [0.5, 3.5]: between 1 and 3
+uniform float turn = radians(4.0);       // [0, 90] degrees: an angle
+uniform float age = 0.0;                // time: of the lamp (s)
+vec3 scatter(vec3 L, vec3 V) {
+    return vec3(share + far + tiny + pair.x + four.w + float(many + few) + turn + age);
+}
+"""
+
+
+def test_a_students_file_with_odd_ranges_gets_its_widgets_too(hand, tmp_path):
+    (tmp_path / "odd.glsl").write_text(ODD)
+    one = hand(Scene.default().changed("model", "odd.glsl", folder=str(tmp_path)))
+    for parameter in one.scene.objects[0].model.parameters[:-1]:
+        label = "##1" if parameter.type.startswith("vec") else "##value"
+        for by in (400, -800, 1000):
+            one.drag(f"{parameter.name}/{label}", (by, 0))
+        assert parameter.check(values(one)[parameter.name]) == values(one)[parameter.name]
+        assert values(one)[parameter.name] != parameter.default and not one.state.message
+        x, y = one.place(f"{parameter.name}/{label}")
+        one.move(30.0, y)
+        one.frame(40)  # the tooltip
+    assert not one.sees("age/##value")
+
+
+def test_a_students_light_may_have_a_unit_of_its_own(hand, tmp_path):
+    (tmp_path / "odd.glsl").write_text(
+        '''// light   Odd
+#include "lib/light.glsl"
+uniform vec3 glow = vec3(1.0);  // [0, 5 ..] tinted: how it glows (candlepower)
+Incident light(vec3 place, vec2 u) { return Incident(vec3(0.0, 1.0, 0.0), glow); }
+'''
+    )
+    one = hand(Scene.default()._replace(lights=(settings.light("odd.glsl", folder=str(tmp_path)),)))
+    one.type("glow/##value", "2")
+    assert one.scene.lights[0].values["glow"] == 2.0 and not one.sees("##unit")
+
+
 def test_a_slider_follows_the_mouse_between_its_ends(hand):
     one = hand(Scene.default().set(model="dielectric"))
     one.drag("eta/##value", (1000, 0))

@@ -174,7 +174,7 @@ def _light(scene, state, words, i):
     own = settings.own_keys(one.kind)
     parameters = [editing.in_unit(one) if p.tinted else p for p in one.kind.parameters]
     scene = _parameters(scene, state, words, key, one.kind, parameters, one.values)
-    if "unit" in own:
+    if own.get("unit"):  # empty where a file has a unit of its own invention
         native = units.unit(one.kind.tinted.unit)
         options = [(name, notation.unit(name)) for name in own["unit"].split(", ")]
         got = _list("unit", words, notation.unit(one.unit or native), options)

@@ -10,7 +10,7 @@ from .parameter import SIZES
 
 _AXES = ((1.0, 0.55, 0.5, 1.0), (0.55, 0.9, 0.5, 1.0), (0.55, 0.7, 1.0, 1.0), (0.8, 0.8, 0.8, 1.0))
 _COLORS = _AXES[:3]
-_FAR = 1e30  # what a bound that is open lets pass
+_FAR, _FAR_INT = 1e30, 2**30 - 1  # what a bound that is open lets pass, and ImGui can slide to
 _POLE = 89.99  # degrees that a ball can be turned up: straight up has no azimuth to come back to
 _STEPS = 250.0  # pixels over which a dragged number crosses its range
 
@@ -58,22 +58,24 @@ def _numbers(one, value, words):
     ending = f" {ending}".replace("%", "%%") if ending else ""
     if size > 1:
         return _components(one, value, whole, _AXES)
+    most = _FAR_INT if whole else _FAR
+    low, high = max(-most, one.low), min(most, one.high)
     if whole:
-        changed, new = imgui.slider_int(
-            "##value", value, round(one.low), round(one.high), f"%d{ending}"
-        )
+        ends = math.ceil(low), math.floor(high)
+        changed, new = imgui.slider_int("##value", value, *ends, f"%d{ending}")
         return new if changed else value
-    wide = one.low > 0.0 and one.high / one.low >= 1e3
+    wide = low > 0.0 and high / low >= 1e3
     flags = imgui.SliderFlags_.logarithmic if one.log or wide else 0
-    changed, new = imgui.slider_float("##value", value, one.low, one.high, f"%.4g{ending}", flags)
+    changed, new = imgui.slider_float("##value", value, low, high, f"%.4g{ending}", flags)
     return _clean(new, value) if changed else value
 
 
 def _components(one, value, whole, colors):
     gap = imgui.get_style().item_inner_spacing.x
     width = (imgui.calc_item_width() - gap * (len(value) - 1)) / len(value)
-    low = -_FAR if one.open[0] or math.isinf(one.low) else one.low
-    high = _FAR if one.open[1] or math.isinf(one.high) else one.high
+    most = _FAR_INT if whole else _FAR
+    low = -most if one.open[0] else max(-most, one.low)
+    high = most if one.open[1] else min(most, one.high)
     span = one.high - one.low if one.high - one.low < _FAR else 2.0
     new = list(value)
     for i, number in enumerate(value):
@@ -81,7 +83,7 @@ def _components(one, value, whole, colors):
             imgui.same_line(0.0, gap)
         imgui.set_next_item_width(width)
         if whole:
-            changed, got = imgui.drag_int(f"##{i}", number, 1.0, round(low), round(high))
+            changed, got = imgui.drag_int(f"##{i}", number, 1.0, int(low), int(high))
         else:
             speed = min(span / _STEPS, max(abs(number), 0.02 * span) / 100.0)
             changed, got = imgui.drag_float(f"##{i}", number, speed, low, high, "%.4g")
