@@ -76,7 +76,7 @@ def test_a_students_file_with_odd_ranges_gets_its_widgets_too(hand, tmp_path):
             one.drag(f"{parameter.name}/{label}", (by, 0))
         assert parameter.check(values(one)[parameter.name]) == values(one)[parameter.name]
         assert values(one)[parameter.name] != parameter.default and not one.state.message
-        x, y = one.place(f"{parameter.name}/{label}")
+        y = one.place(f"{parameter.name}/{label}")[1]
         one.move(30.0, y)
         one.frame(40)  # the tooltip
     assert not one.sees("age/##value")
@@ -84,11 +84,11 @@ def test_a_students_file_with_odd_ranges_gets_its_widgets_too(hand, tmp_path):
 
 def test_a_students_light_may_have_a_unit_of_its_own(hand, tmp_path):
     (tmp_path / "odd.glsl").write_text(
-        '''// light   Odd
+        """// light   Odd
 #include "lib/light.glsl"
 uniform vec3 glow = vec3(1.0);  // [0, 5 ..] tinted: how it glows (candlepower)
 Incident light(vec3 place, vec2 u) { return Incident(vec3(0.0, 1.0, 0.0), glow); }
-'''
+"""
     )
     one = hand(Scene.default()._replace(lights=(settings.light("odd.glsl", folder=str(tmp_path)),)))
     one.type("glow/##value", "2")
