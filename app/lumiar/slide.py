@@ -54,10 +54,12 @@ def places(size, count):
     u = _unit(size)
     left, top, gap = round(MARGIN * u), round(TOP * u), round(GAP * u)
     if count == 1:
-        height = size[1] - top - round((FOOT + 24) * u)
-        return [(left, top, min(round(SINGLE * u), size[0] // 2), height)]
+        width = min(round(SINGLE * u), size[0] // 2)
+        height = min(size[1] - top - round((FOOT + 24) * u), round(0.88 * width))
+        return [(left, top, width, height)]
     width = (size[0] - 2 * left - (count - 1) * gap) // count
-    return [(left + i * (width + gap), top, width, round(ROW * u)) for i in range(count)]
+    height = round(ROW * u + 0.6 * (size[1] - 1080 * u))  # a slide of 4:3 has more room
+    return [(left + i * (width + gap), top, width, height) for i in range(count)]
 
 
 def draw(page, size, letters=LARGEST):
@@ -80,7 +82,10 @@ def draw(page, size, letters=LARGEST):
         areas = [(x + width + 1.4 * GAP * u, y, right, end)]
         columns = [(page.formula, page.text, page.box)]
     else:
-        y, middle = (TOP + ROW + UNDER + 14) * u, size[0] * (0.5 if page.box else 0.42)
+        y, middle = (
+            spots[0][1] + spots[0][3] + (UNDER + 14) * u,
+            size[0] * (0.5 if page.box else 0.42),
+        )
         areas = [(start, y, middle - GAP * u / 2, end), (middle + GAP * u / 2, y, right, end)]
         columns = [(page.formula, page.text, None), (None, "", page.box)]
         if not page.box:
@@ -130,7 +135,7 @@ class _Canvas:
         room = self.image.width - 2 * MARGIN * self.u
         letters = 60 * self.u
         letters = min(letters, letters * room / _font(letters).getlength(text))
-        bold = max(1, round(letters / 50))
+        bold = int(letters / 45)
         spot = (MARGIN * self.u, 72 * self.u)
         self.pen.text(spot, text, INK, _font(letters), "lm", stroke_width=bold, stroke_fill=INK)
 
