@@ -4,11 +4,12 @@ import os
 import sys
 
 VERBS = (
-    *("capture", "probe", "info", "source", "compare"),
+    *("view", "capture", "probe", "info", "source", "compare"),
     *("measure", "formfactor", "audit", "lesson", "list"),
 )
 HELP = """usage: lumiar VERB … (lumiar VERB --help tells more)
 
+  view [SCENE]     open a window: turn, light and edit a scene, watch your shader change
   capture [SCENE]  draw a scene to a picture: .png, or .hdr and .npy for linear radiance
   probe [SCENE]    the light at one point of its picture: radiance, irradiance, angles, shares
   info FILE        what a mesh, a model, a light, a scene or a Lumiar picture holds

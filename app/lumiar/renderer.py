@@ -89,6 +89,20 @@ class Renderer(OnCard):
             *values, surface = struct.unpack("4f", held.read(components=4, dtype="f4"))
         return tuple(values) if surface or shows == "radiance" else None
 
+    def show(self, scene, picture):
+        """Draw a whole scene into a framebuffer of its size: sRGB, top row first, as `strips`."""
+        side = math.isqrt(scene.samples)
+        self._check_size(*scene.size, side)
+        with self.context:
+            radiance, _ = self._target(*scene.size, side, False)
+            radiance.viewport = (0, 0, *radiance.size)
+            picture.viewport = (0, 0, *scene.size)
+            self.present(scene, self._accumulated(scene, radiance, (0, 0), "radiance"), picture)
+
+    def viewpoint(self, scene):
+        """Return where the eye of a scene is, and what it looks at."""
+        return layout.viewpoint(scene, [self._stock.mesh(one)[0] for one in scene.objects])
+
     def _strip(self, scene, linear, side, rows, top, shows):
         width, height = scene.size
         count = min(rows, height - top)

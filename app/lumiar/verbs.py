@@ -1,15 +1,44 @@
 """What each verb does with its options; each returns an exit code."""
 
 import contextlib
+import math
 import os
 import sys
 import time
 
 from . import options as given
-from .errors import Mistake
+from .errors import Mistake, one_line
 from .supervise import limit_time
 
 LESSON_TIME = 600.0  # seconds: dozens of pictures
+
+
+def view(options):
+    """Open a window with a scene, and return when it is closed."""
+    limit_time(math.inf)
+    from . import scenefile
+
+    if options.restore:
+        from . import opening
+
+        if options.scene:
+            raise Mistake(f"--restore: opens the last scene, not {options.scene}; leave one out")
+        options.scene = ""
+        scene = opening.kept()
+    else:
+        scene = given.scene(options)
+    try:
+        from .window import Viewer
+    except ImportError as error:
+        advice = "`lumiar capture` draws without a window"
+        raise Mistake(f"no window can be opened here ({one_line(error, 120)}); {advice}") from None
+    path = scenefile.shipped().get(options.scene) or os.path.abspath(options.scene or "")
+    path = path if path.endswith(".toml") else ""
+    name = os.path.splitext(os.path.basename(options.scene or ""))[0]
+    lang = options.lang or (scene.lang if scene.lang in scenefile.LANGUAGES else "")
+    with Viewer(scene, lang or scenefile.system_language(), name, path) as viewer:
+        viewer.run()
+    return 0
 
 
 def capture(options):
