@@ -15,15 +15,20 @@ _WIDGETS = {
 
 
 class Spy:
-    """ImGui, noting where each widget was drawn: {"id/…/label": (left, top, right, bottom)}."""
+    """ImGui, noting where each widget was drawn, and what was written.
+
+    places maps "id/…/label" to (left, top, right, bottom).
+    """
 
     def __init__(self):
-        self.places, self.path = {}, []
+        self.places, self.path, self.said = {}, [], []
 
     def __getattr__(self, name):
         true = getattr(imgui, name)
         if name in _WIDGETS:
             return lambda *given, **named: self._drawn(name, true, given, named)
+        if name in ("text", "text_colored"):
+            return lambda *given: (self.said.append(given[-1]), true(*given))[1]
         if name == "push_id":
             return lambda part: (self.path.append(str(part)), true(part))[1]
         if name in ("pop_id", "tree_pop"):

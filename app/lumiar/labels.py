@@ -32,6 +32,8 @@ def row(name, words, text="", tip=None, default=None, ending=""):
     if ending:
         imgui.same_line(0.0, 0.4 * em)
         _small(ending, DIM, 0.0)
+    imgui.same_line(begin + label_width(width) - 1.0)
+    imgui.dummy((1.0, 1.0))  # so that the tooltip belongs to all of the label's place
     imgui.end_group()
     if tip and imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip):
         _tip(tip)
