@@ -1,12 +1,13 @@
 """The panel: every widget by mouse and keyboard, and the Scene that comes of it."""
 
 import math
+import random
 
 import pytest
 from hand import Hand
 from imgui_bundle import imgui
 
-from lumiar import catalog, notation, parts, settings, words
+from lumiar import catalog, notation, parts, scenefile, settings, words
 from lumiar.scene import Scene
 
 
@@ -180,6 +181,38 @@ def test_a_direction_is_typed_by_components_and_never_nothing(hand):
     one.type("direction/##0", "0")
     one.type("direction/##1", "0")
     assert any(one.scene.lights[0].values["direction"])
+
+
+@pytest.mark.parametrize("text", ["nan", "inf", "-1e400"])
+def test_what_is_no_number_leaves_every_widget_as_it_was(hand, text):
+    one = hand(lit("directional"))
+    before = one.scene
+    for name in ("direction/##0", "direction/##azimuth", "direction/##elevation", "kd/##2"):
+        one.type(name, text)
+    one.type("shininess/##value", text)
+    one.type("irradiance/##value", text)
+    assert one.scene == before
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_whatever_is_clicked_and_typed_the_scene_is_one_that_can_be_saved(hand, seed):
+    chance = random.Random(seed)
+    model, *kinds = chance.choice(catalog.names("model")), *chance.sample(catalog.names("light"), 3)
+    one = hand(lit(*kinds).set(model=model))
+    for _ in range(60):
+        x, y = chance.uniform(0, 430), chance.uniform(0, 1500)
+        one.io.add_key_event(imgui.Key.mod_ctrl, chance.random() < 0.3)
+        one.move(x, y)
+        one.button(True)
+        one.move(
+            x + chance.uniform(-200, 200), y + chance.uniform(-40, 40) * (chance.random() < 0.3)
+        )
+        one.button(False)
+        one.io.add_key_event(imgui.Key.mod_ctrl, False)
+        one.io.add_input_characters_utf8(chance.choice(["", "0.3", "-5", "1e39", "torus", "é%s"]))
+        one.frame(2)
+        one.key(chance.choice([imgui.Key.enter, imgui.Key.escape, imgui.Key.tab]))
+    assert scenefile.parse(one.scene.toml(), "scene.toml", Scene.default()) == one.scene
 
 
 def test_a_toggle_and_a_choice(hand):

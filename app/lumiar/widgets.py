@@ -141,7 +141,7 @@ def _direction(one, value, words):
         before = azimuth if name == "azimuth" else elevation
         form = f"{words[name]} %.1f°"
         changed, got = imgui.slider_float(f"##{name}", before, -limit, limit, form)
-        if changed:
+        if changed and math.isfinite(got):
             turned = True
             azimuth, elevation = (got, elevation) if name == "azimuth" else (azimuth, got)
     imgui.end_group()
