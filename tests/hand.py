@@ -2,7 +2,7 @@
 
 from imgui_bundle import imgui
 
-from lumiar import labels, panel, widgets
+from lumiar import labels, panel, sections, widgets
 from lumiar.history import History
 
 SIZE = (1000, 3000)  # of the screen; high, so that nothing has to be scrolled
@@ -63,7 +63,7 @@ class Hand:
         """Draw frames, each with the scene that the one before gave."""
         for _ in range(count):
             self.spy = Spy()
-            for module in (panel, widgets, labels):
+            for module in (panel, sections, widgets, labels):
                 self.patch.setattr(module, "imgui", self.spy)
             imgui.new_frame()
             self.scene = panel.draw(self.scene, self.state)

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from lumiar import catalog, editing, parts, settings, units
+from lumiar import camera, catalog, editing, parts, settings, units
 from lumiar.errors import Mistake
 from lumiar.scene import Scene
 
@@ -156,6 +156,24 @@ def test_resetting_a_section_leaves_the_others(section):
         assert one.objects[0].values["shininess"] == 9.0
     if section in ("light", "camera"):
         assert getattr(one, fields[section]) == getattr(plain, fields[section])
+
+
+@pytest.mark.parametrize("view", editing.VIEWS)
+def test_a_view_from_a_side_is_known_again(view):
+    scene = editing.looking_from(Scene.default().set(camera__position=(1, 2, 3)), view)
+    assert scene.camera.position is None and editing.seen_from(scene.camera) == view
+    assert editing.looking_from(scene, view) is scene
+    assert editing.seen_from(parts.Camera((0.0, 0.0, 3.0), azimuth=0.0, elevation=0.0)) == ""
+
+
+def test_the_eye_of_a_view_stands_where_its_name_says():
+    axes = {"front": 2, "right": 0, "back": 2, "left": 0, "top": 1}
+    signs = {"front": 1, "right": 1, "back": -1, "left": -1, "top": 1}
+    for view in editing.VIEWS:
+        looks = editing.looking_from(Scene.default(), view).camera
+        eye, _ = camera.viewpoint(looks, 1.0, (0.0, 0.0, 0.0), 1.0)
+        along = eye[axes[view]] * signs[view]
+        assert along == pytest.approx(math.hypot(*eye))
 
 
 def test_a_position_leaves_a_camera_no_angles():

@@ -22,8 +22,8 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "settings factor_card layout content variants navigate overlay",
     "scenefile stock hands",
     "scene editing",
-    "renderer lesson panel opening",
-    "picture options measure views report document",
+    "renderer lesson sections opening",
+    "picture options measure views report panel document",
     "hostile measuring falsecolour reflectance deck window",
     "examine probe",
     "audit",
@@ -40,7 +40,16 @@ HOMES = {  # a heavy library and the modules that may know it
     "isal": {"image", "cache"},
     "flip_evaluator": {"difference"},
     "matplotlib": {"panels", "plots"},
-    "imgui_bundle": {"labels", "widgets", "panel", "overlay", "banner", "desktop", "window"},
+    "imgui_bundle": {
+        "labels",
+        "widgets",
+        "sections",
+        "panel",
+        "overlay",
+        "banner",
+        "desktop",
+        "window",
+    },
     "glfw": {"desktop"},
 }
 MODULES = sorted(p for p in APP.rglob("*.py") if p.name not in ("__init__.py", "__main__.py"))

@@ -335,6 +335,8 @@ def test_the_camera_shows_angles_until_it_has_a_position(hand):
     one.click("camera/position/##given")
     assert one.scene.camera.position == (1.0, 2.0, 3.0)
     assert not one.sees("camera/azimuth/##value")
+    one.click("camera/right")
+    assert one.scene.camera == parts.Camera(fov=45.0, azimuth=90.0, elevation=0.0)
     one.click("camera/reset all")
     assert one.scene.camera == parts.Camera()
 

@@ -7,6 +7,13 @@ from .parts import CAMERA, LIGHT, LIGHT_TEXTS, OBJECT, SCENE, Camera, Light
 
 PICTURE = ("shading", "samples", "exposure", "ev100", "tone", "background", "time")
 NEUTRAL_EV100 = 7.203  # where units.exposure is 1, so that switching it on changes nothing
+VIEWS = {  # azimuth and elevation of the eye, in degrees
+    "front": (0.0, 0.0),
+    "right": (90.0, 0.0),
+    "back": (180.0, 0.0),
+    "left": (-90.0, 0.0),
+    "top": (0.0, 90.0),
+}
 STARTS = {"ev100": NEUTRAL_EV100, "temperature": 6500.0, "fit": 1.0, "crease": 30.0}
 
 
@@ -142,6 +149,20 @@ def camera_keys(camera):
     if camera.position is not None:
         return [key for key in CAMERA if key not in ("azimuth", "elevation", "distance")]
     return list(CAMERA)
+
+
+def looking_from(scene, view):
+    """Return the scene seen from one of VIEWS, all of it in view unless a distance is given."""
+    azimuth, elevation = VIEWS[view]
+    camera = scene.camera._replace(position=None, azimuth=azimuth, elevation=elevation)
+    return scene if camera == scene.camera else scene._replace(camera=camera)
+
+
+def seen_from(camera):
+    """Return from which of VIEWS a camera looks, "" for none of them."""
+    angles = (camera.azimuth, camera.elevation)
+    names = (name for name, view in VIEWS.items() if view == angles and camera.position is None)
+    return next(names, "")
 
 
 def _put(among, index, one):

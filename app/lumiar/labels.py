@@ -80,18 +80,21 @@ def choice(key, current, options, hint=""):
 
 
 def pick(key, current, options):
-    """Draw options to choose one of, side by side where there is room, else as a list."""
+    """Draw options, see `choice`, side by side where there is room, else as a list.
+
+    Returns the one that was chosen, else `current`.
+    """
     gap, padding = 2.0, imgui.get_style().frame_padding.x
-    said = [str(option) for option in options]
+    pairs = [option if isinstance(option, tuple) else (option, str(option)) for option in options]
+    said = [text for _, text in pairs]
     needs = [imgui.calc_text_size(text).x + 2.0 * padding for text in said]
     spare = imgui.calc_item_width() - sum(needs) - gap * (len(needs) - 1)
     if spare < 0.0:
-        pairs = list(zip(options, said, strict=True))
-        chosen = choice(key, str(current), pairs)
+        chosen = choice(key, dict(pairs).get(current, ""), pairs)
         return current if chosen is None else chosen
     color = imgui.get_style().color_(imgui.Col_.frame_bg)
     chosen = current
-    for i, (option, text, need) in enumerate(zip(options, said, needs, strict=True)):
+    for i, ((option, text), need) in enumerate(zip(pairs, needs, strict=True)):
         if i:
             imgui.same_line(0.0, gap)
         if option != current:
