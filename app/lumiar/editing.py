@@ -1,5 +1,7 @@
 """Edits of a scene that no single value makes: lights come and go, kinds and units change."""
 
+import functools
+
 from . import scenefile, settings, units
 from .errors import Mistake
 from .parameter import TINT
@@ -65,16 +67,21 @@ def unit_ratio(light):
 
     A light that has no brightness in its unit, being black or without extent, gives 1.
     """
-    tinted = light.kind.tinted
-    native = units.unit(tinted.unit) if light.unit else ""
-    if not light.unit or light.unit == native:
+    if not light.unit:
         return 1.0
-    color = light.values[TINT]
-    spectrum = (color, light.temperature, light.illuminant)
-    shared = (light.kind.name, tinted.unit, 1.0)
+    kind, tinted = light.kind, light.kind.tinted
+    spectrum = (light.values[TINT], light.temperature, light.illuminant)
+    return _ratio(kind.name, tinted.unit, light.unit, tuple(light.values.items()), *spectrum)
+
+
+@functools.lru_cache(maxsize=64)  # the panel asks in every frame, and a spectrum takes 0.1 ms
+def _ratio(kind, native, unit, values, *spectrum):
+    values = dict(values)
     try:
-        one = units.luminance(units.tint(*shared, native, light.values, *spectrum))
-        other = units.luminance(units.tint(*shared, light.unit, light.values, *spectrum))
+        one, other = (
+            units.luminance(units.tint(kind, native, 1.0, given, values, *spectrum))
+            for given in (native, unit)
+        )
     except Mistake:
         return 1.0
     return one / other if one > 0.0 and other > 0.0 else 1.0

@@ -1,5 +1,6 @@
 """How the window writes things: symbols as in papers, units, colours on a screen, directions."""
 
+import functools
 import math
 import re
 
@@ -25,6 +26,7 @@ _SIGN = re.compile(rf"({'|'.join(_LETTERS)}|[A-Za-z])(?:_(\w+)|(\d+))?('?)(?=,| 
 _POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
+@functools.lru_cache(maxsize=256)
 def symbol(name, text):
     """Return (letter, subscript) of a parameter as papers write it, ("", "") where none is known.
 
@@ -41,6 +43,7 @@ def symbol(name, text):
     return _LETTERS.get(letter, letter) + prime.replace("'", "′"), below
 
 
+@functools.lru_cache(maxsize=64)
 def unit(text):
     """Return a unit as it is printed: "W m^-2 sr^-1" with raised digits; "unitless" is nothing."""
     text = re.sub(r"\^(-?\d+)", lambda power: power[1].translate(_POWERS), text)
