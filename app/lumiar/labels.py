@@ -31,7 +31,7 @@ def row(name, words, text="", tip=None, default=None, ending=""):
         imgui.text(words["names"].get(name, name.replace("_", " ")))
     if ending:
         imgui.same_line(0.0, 0.4 * em)
-        _small(ending, DIM, 0.0)
+        _small(ending, DIM, 0.22)
     imgui.same_line(begin + label_width(width) - 1.0)
     imgui.dummy((1.0, 1.0))  # so that the tooltip belongs to all of the label's place
     imgui.end_group()

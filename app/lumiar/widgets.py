@@ -23,7 +23,7 @@ def edit(one, value, words, note="", start=None, time=0.0):
     imgui.push_id(one.name)
     marked = _default(one, words) if value != one.default and one.widget != "time" else None
     several = SIZES[one.type] > 1 and one.widget == "slider"
-    ending = unit("degrees" if one.degrees else one.unit) if several else ""
+    ending = _unit(one, words) if several else ""
     if labels.row(one.name, words, one.text, lambda: _about(one, words, note), marked, ending):
         value = one.default
     elif one.default is None:
@@ -54,18 +54,18 @@ def _optional(one, value, words, start):
 def _numbers(one, value, words):
     """Draw a slider for a number, or a field to drag in for each component of a vector."""
     whole, size = one.type in ("int", "ivec2"), SIZES[one.type]
-    ending = unit("degrees" if one.degrees else one.unit)
-    ending = f" {ending}".replace("%", "%%") if ending else ""
+    ending = _unit(one, words).replace("%", "%%")
+    ending = f" {ending}" if ending and ending != "°" else ending
     if size > 1:
         return _components(one, value, whole, _AXES)
     most = _FAR_INT if whole else _FAR
     low, high = max(-most, one.low), min(most, one.high)
-    if whole:
-        ends = math.ceil(low), math.floor(high)
-        changed, new = imgui.slider_int("##value", value, *ends, f"%d{ending}")
-        return new if changed else value
     wide = low > 0.0 and high / low >= 1e3
     flags = imgui.SliderFlags_.logarithmic if one.log or wide else 0
+    if whole:
+        ends = math.ceil(low), math.floor(high)
+        changed, new = imgui.slider_int("##value", value, *ends, f"%d{ending}", flags)
+        return new if changed else value
     changed, new = imgui.slider_float("##value", value, low, high, f"%.4g{ending}", flags)
     return _clean(new, value) if changed else value
 
@@ -191,13 +191,18 @@ def _default(one, words):
     return _left_out(one, words) if one.default is None else shown(one.default)
 
 
+def _unit(one, words):
+    said = words["texts"].get(one.unit, one.unit)
+    return unit("degrees" if one.degrees else said)
+
+
 def _left_out(one, words):
     return words["off" if one.name in ("ev100", "temperature", "fit") else "auto"]
 
 
 def _about(one, words, note):
     """Write what a Parameter is: its name, unit, text, domain and default; then the note."""
-    ending = unit("degrees" if one.degrees else one.unit)
+    ending = _unit(one, words)
     imgui.text(f"{one.name} [{ending}]" if ending else one.name)
     imgui.text(words["texts"].get(one.text, one.text))
     if domain(one):

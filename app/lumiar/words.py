@@ -191,6 +191,8 @@ _TEXTS = {  # of annotations, in Portuguese; those of a student's own file stay 
     "edges sharper than this stay sharp": "arestas mais agudas do que isto ficam vivas",
     "colour of a black body": "cor de um corpo negro",
     "directions to a light with an extent": "direções até uma luz que tem extensão",
+    "per point": "por ponto",
+    "per pixel": "por pixel",
     "whether the objects of the scene hide it": "se os objetos da cena a encobrem",
     "whether the eye sees the light itself": "se o olho vê a própria luz",
 }
