@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from lumiar import Scene, capture, hands, opening
+from lumiar import Scene, capture, hands, layout, opening, settings
 from lumiar.desktop import glfw  # which imports imgui before it
 from lumiar.document import Document
 from lumiar.errors import Mistake
@@ -104,14 +104,16 @@ def test_the_window_shows_what_capture_draws(viewer):
     assert len(np.unique(screen(viewer)[:, : left - 2].reshape(-1, 3), axis=0)) > 20  # the panel
 
 
-def test_a_heavy_scene_at_rest_is_what_capture_draws_too(viewer):
-    scene = Scene.load("room-corner").set(samples=4)
-    viewer.document.open(scene._replace(panels=()))
-    settle(viewer)
-    viewer.cost = 1.0  # as on a slow machine
-    drag(viewer, MIDDLE, ASIDE)
-    assert not viewer.drawn[2]
-    assert (shown(viewer) == captured(hands.framed(viewer.scene, viewer._area()[1]))).all()
+def test_a_scene_of_several_passes_at_rest_is_what_capture_draws_too():
+    lamp = settings.light("sphere:samples=1100:radius=1")
+    scene = plain()._replace(lights=(lamp,), samples=4)
+    assert layout.passes(scene) > 1
+    with Viewer(scene, "en", hidden=True, size=(80, 60)) as viewer:
+        press(viewer, glfw.KEY_H)
+        viewer.cost = 1.0  # as on a slow machine
+        drag(viewer, (40, 30), (45, 32))
+        assert viewer.scene.camera != scene.camera and not viewer.drawn[2]
+        assert (shown(viewer) == captured(hands.framed(viewer.scene, (80, 60)))).all()
 
 
 def test_a_slow_picture_is_coarse_only_while_it_moves(viewer):
@@ -185,7 +187,11 @@ def test_a_window_without_size_waits(viewer):
     glfw.iconify_window(viewer.desktop.window)
     assert viewer.desktop.size == (0, 0)
     viewer.desktop.move(*MIDDLE)
+    viewer.desktop.wheel(0, 1)
+    viewer.desktop.button(0, glfw.PRESS, 0)
+    viewer.desktop.move(*ASIDE)
     assert not any(viewer.frame() for _ in range(4))
+    viewer.desktop.button(0, glfw.RELEASE, 0)
     glfw.restore_window(viewer.desktop.window)
     settle(viewer)
     assert viewer.canvas.size == viewer._area()[1]
@@ -300,6 +306,24 @@ def test_a_saved_shader_is_read_again_and_a_broken_one_leaves_the_last_picture(t
         assert not viewer.document.fault + viewer.fault
         assert viewer.scene.objects[0].values["k"] == 0.9
         assert (shown(viewer) == first).all()
+
+
+def test_many_saves_leave_nothing_behind(tmp_path):
+    """Forty saves, one in four broken: no program of an earlier one is kept, and each is fast."""
+    path, times = tmp_path / "own.glsl", []
+    path.write_text(MODEL % "")
+    with Viewer(plain().changed("model", str(path)), "en", hidden=True, size=SIZE) as viewer:
+        settle(viewer)
+        kept = len(viewer.renderer._programs), len(viewer.renderer._stock.arrays)
+        for i in range(40):
+            path.write_text(MODEL % (" * nope" if i % 4 == 3 else f" * {i + 1}.0"))
+            began = time.perf_counter()
+            viewer._reload([str(path)])
+            viewer.frame()
+            times.append(time.perf_counter() - began)
+            assert bool(viewer.fault) == (i % 4 == 3)
+        assert (len(viewer.renderer._programs), len(viewer.renderer._stock.arrays)) == kept
+    assert sorted(times)[20] < 1.0  # 0.04 s where nothing else runs
 
 
 def test_a_value_survives_a_save_in_which_its_line_was_missing(tmp_path):

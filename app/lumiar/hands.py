@@ -36,7 +36,7 @@ class Hands:
         shown: the scene as drawn, whose size and angle of view count; view: its (eye, target).
         """
         (x, y), self._place = self._place, place
-        if not self._doing:
+        if not self._doing or shown is None:
             return scene, None
         dx, dy = (place[0] - x) / shown.size[1], (place[1] - y) / shown.size[1]
         key = (self._doing, self._drags)

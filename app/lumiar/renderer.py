@@ -99,6 +99,16 @@ class Renderer(OnCard):
             picture.viewport = (0, 0, *scene.size)
             self.present(scene, self._accumulated(scene, radiance, (0, 0), "radiance"), picture)
 
+    def forget(self, text):
+        """Free the programs made with a GLSL file's text that was edited since."""
+        self._drawn = (None, "", [])
+        for key in [key for key in self._programs if text in key]:
+            program = self._programs.pop(key)
+            self._stock.forget_program(program)
+            if key in self._screens:
+                self._screens.pop(key).release()
+            program.release()
+
     def viewpoint(self, scene):
         """Return where the eye of a scene is, and what it looks at."""
         return layout.viewpoint(scene, [self._stock.mesh(one)[0] for one in scene.objects])

@@ -1,5 +1,6 @@
 """The window: input → next Scene, its picture, the panel on it; drawn only when something moved."""
 
+import contextlib
 import itertools
 import os
 import time
@@ -15,7 +16,7 @@ from .phrases import TEXT
 from .renderer import Renderer
 
 SIZE = (1280, 800)
-IDLE = 0.25  # seconds between two looks at the files
+IDLE = 0.15  # seconds between two looks at the files
 FRAMES = 3  # that imgui takes to settle after an event
 LINGER = 0.7  # seconds after which a tooltip has come up
 NOTICE = 4.0  # seconds that a message of something done stays
@@ -131,16 +132,26 @@ class Viewer:
         try:
             shown = self._show(self.scene, size, coarse)
         except Mistake as mistake:
+            self.fault = one_line(mistake)
             if self.good is None:
                 raise
-            self.fault = one_line(mistake)
-            shown = self._show(self.good, size, coarse)
+            with contextlib.suppress(Mistake):  # larger than any picture can be
+                shown = self._show(self.good, size, coarse)
+                self.view = self.renderer.viewpoint(shown)
         else:
+            self._forget_edited()
             self.good, self.fault = self.scene, ""
+            self.view = self.renderer.viewpoint(shown)
         self.desktop.context.finish()
         self.cost = self.cost if coarse else time.perf_counter() - began
-        self.view = self.renderer.viewpoint(shown)
         self.drawn = (self.scene, size, coarse)
+
+    def _forget_edited(self):
+        """Free what was compiled from files as they were before their last good save."""
+        texts = {shader.path: shader.text for shader in opening.shaders(self.scene)}
+        for old in opening.shaders(self.good) if self.good else ():
+            if texts.get(old.path, old.text) != old.text:
+                self.renderer.forget(old.text)
 
     def _show(self, scene, size, coarse):
         """Draw a scene into the canvas; return it as drawn."""
@@ -192,11 +203,11 @@ class Viewer:
         self.document.history.push(self.document.history.scene)  # ends the step
 
     def _on_move(self, place):
-        looks = self._looks() if self.hands.holds else (None, None)
+        looks = self._looks() if self.hands.holds and 0 not in self.desktop.size else (None, None)
         self._push(*self.hands.move(self.scene, *looks, place))
 
     def _on_wheel(self, notches):
-        if not self.desktop.io.want_capture_mouse:
+        if not self.desktop.io.want_capture_mouse and 0 not in self.desktop.size:
             self._push(*self.hands.wheel(self.scene, *self._looks(), notches))
 
     def _looks(self):
