@@ -108,12 +108,12 @@ def test_a_scene_of_several_passes_at_rest_is_what_capture_draws_too():
     lamp = settings.light("sphere:samples=1100:radius=1")
     scene = plain()._replace(lights=(lamp,), samples=4)
     assert layout.passes(scene) > 1
-    with Viewer(scene, "en", hidden=True, size=(80, 60)) as viewer:
+    with Viewer(scene, "en", hidden=True, size=(32, 24)) as viewer:
         press(viewer, glfw.KEY_H)
         viewer.cost = 1.0  # as on a slow machine
-        drag(viewer, (40, 30), (45, 32))
+        drag(viewer, (16, 12), (18, 13))
         assert viewer.scene.camera != scene.camera and not viewer.drawn[2]
-        assert (shown(viewer) == captured(hands.framed(viewer.scene, (80, 60)))).all()
+        assert (shown(viewer) == captured(hands.framed(viewer.scene, (32, 24)))).all()
 
 
 def test_a_slow_picture_is_coarse_only_while_it_moves(viewer):

@@ -37,6 +37,7 @@ class Viewer:
         context = self.desktop.context
         self.renderer, self.overlay, self.canvas = Renderer(context), Overlay(context), None
         panel.prepare(LETTERS * self.desktop.scale)
+        imgui.get_style().scale_all_sizes(self.desktop.scale)
         self.state, self.hands = panel.State(lang=lang), hands.Hands()
         self.good, self.drawn, self.view = None, None, None
         self.fault, self.notice, self.titled = "", ("", 0.0), ""
