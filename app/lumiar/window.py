@@ -179,11 +179,11 @@ class Viewer:
         if len(document.pages) > 1:
             page = words["page"].format(document.page + 1, len(document.pages))
             caption = f"{page}   {caption}".strip()
-        fault = document.fault or self.fault
+        fault = (document.fault or self.fault).replace(os.getcwd() + os.sep, "")
         fault = f"{fault}\n{words['last']}" if fault else ""
         if not self.with_panel:
             fault = fault or self.state.message
-        done = self.notice[0] if now < self.notice[1] else ""
+        done = self.notice[0] if now < self.notice[1] and not fault else ""
         points = imgui.get_io().display_size.x / self.desktop.size[0]
         area = (left * points, size[0] * points, size[1] * points)
         banner.draw(area, f"{1000.0 * self.cost:.1f} ms", caption, fault, done)
