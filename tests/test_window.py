@@ -2,13 +2,15 @@
 
 import itertools
 import os
+import subprocess
+import sys
 import time
 
 import numpy as np
 import pytest
 from PIL import Image
 
-from lumiar import Scene, capture, hands, layout, opening, settings
+from lumiar import Scene, capture, hands, layout, opening, scenefile, settings
 from lumiar.desktop import glfw  # which imports imgui before it
 from lumiar.document import Document
 from lumiar.errors import Mistake
@@ -409,3 +411,16 @@ def test_without_a_display_one_line_names_what_draws_without(lumiar):
     assert "lumiar capture" in lumiar("view", "teapot", code=2, env=none).stderr
     lumiar("view", "teapot", "--restore", code=2, env=none)
     assert "no scene" in lumiar("view", "teapott", code=2, env=none).stderr
+
+
+@pytest.mark.parametrize("name", scenefile.shipped())
+def test_every_scene_that_comes_with_lumiar_can_be_opened(name):
+    found = opening.pages(Scene.load(name))
+    assert found and not any(scene.panels for _, scene in found)
+
+
+def test_a_window_may_stay_open_for_longer_than_a_picture_may_take():
+    job = "limit_time(0.2), limit_time(math.inf), time.sleep(0.8)"
+    code = "import math, sys, time\nfrom lumiar.supervise import limit_time, supervised\n"
+    code += f"sys.exit(supervised(lambda: ({job}) and 7))"
+    assert subprocess.run([sys.executable, "-c", code]).returncode == 7
