@@ -107,7 +107,6 @@ class Desktop:
 
     def take(self, wait=0.0):
         """Return the events since the last time; wait for one, up to so many seconds."""
-        self.use()
         if wait > 0.0 and not self.events:
             glfw.wait_events_timeout(wait)
         else:

@@ -75,11 +75,13 @@ class Viewer:
     def frame(self, wait=0.0):
         """Take what came, for up to `wait` seconds; draw if anything moved; return whether."""
         events, now = self.desktop.take(wait), time.monotonic()
+        saved = self.document.watch.changed(now)
+        if events or saved or self.due or self._lingers(now):
+            self.desktop.use()
         if events:
             self.due, self.awake = FRAMES, now + LINGER
         for event, *how in events:
             getattr(self, f"_on_{event}")(*how)
-        saved = self.document.watch.changed(now)
         if saved:
             self._reload(saved)
         if not (self.due or self._lingers(now)) or 0 in self.desktop.size:
