@@ -17,6 +17,9 @@ demo: $(VENV)/run driver
 	@mkdir -p demo
 	@$(BIN)/lumiar capture demo -o demo/lumiar.png >/dev/null
 	@echo "Look at demo/lumiar.png. One of its scenes alone: $(BIN)/lumiar capture teapot"
+	@if [ -n "$$DISPLAY$$WAYLAND_DISPLAY" ] || [ "$$(uname)" = Darwin ]; then \
+		echo "and a window: F1 tells its keys, Esc closes it"; \
+		$(BIN)/lumiar view teapot --set samples=4 || true; fi
 
 test: $(VENV)/dev driver glslang style
 	$(BIN)/python -m pytest -n auto

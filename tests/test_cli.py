@@ -405,7 +405,7 @@ def test_list_names_everything(lumiar):
     for name in ("phong", "directional", "torus_knot", "suzanne", "phong-terms"):
         assert re.search(rf"^  {name}\b", text, re.MULTILINE), name
     data = json.loads(lumiar("list", "--json").stdout)
-    assert set(data) == {"models", "lights", "meshes", "materials", "scenes"}
+    assert set(data) == {"models", "lights", "meshes", "materials", "scenes", "lessons"}
     phong = next(model for model in data["models"] if model["name"] == "phong")
     shininess = next(p for p in phong["parameters"] if p["name"] == "shininess")
     assert (
@@ -536,7 +536,7 @@ def test_help_and_version(lumiar):
     assert lumiar("--help").stdout.startswith("usage: lumiar VERB")
     assert lumiar().stdout == lumiar("help").stdout
     assert re.fullmatch(r"lumiar \d+\.\d+\.\d+\n", lumiar("--version").stdout)
-    for verb in ("capture", "info", "source", "compare", "measure", "list"):
+    for verb in ("capture", "info", "source", "compare", "measure", "lesson", "list"):
         assert f"usage: lumiar {verb}" in lumiar(verb, "--help").stdout
 
 

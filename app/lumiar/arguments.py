@@ -59,7 +59,6 @@ def _scene_options(parser):
         metavar="KEY=VALUE",
         help="any value of the scene: shininess=80, camera.fov=20, object.2.kd=1,0,0",
     )
-    _timeout(parser)
 
 
 def _timeout(parser):
@@ -84,8 +83,16 @@ def _number(text, allowed, good):
     raise argparse.ArgumentTypeError(f"'{text}' is not {allowed}")
 
 
+def _view(parser):
+    _scene_options(parser)
+    text = "the scene of the last window, as it was left"
+    parser.add_argument("--restore", action="store_true", help=text)
+    parser.add_argument("--lang", choices=("en", "pt"), help="language of the window")
+
+
 def _capture(parser):
     _scene_options(parser)
+    _timeout(parser)
     parser.add_argument("--size", metavar="WxH", help="pixels, as 1024x768")
     parser.add_argument("--samples", metavar="N", help="per pixel: 1, 4, 9, 16 …")
     parser.add_argument(
@@ -106,6 +113,7 @@ def _capture(parser):
 
 def _probe(parser):
     _scene_options(parser)
+    _timeout(parser)
     parser.add_argument("--size", metavar="WxH", help="of the picture, as 1024x768")
     text = "pixel from the top left one, 0,0; or shares of width and height, as 0.5,0.5"
     parser.add_argument("--at", required=True, metavar="X,Y", help=text)
@@ -114,6 +122,7 @@ def _probe(parser):
 
 def _source(parser):
     _scene_options(parser)
+    _timeout(parser)
     parser.add_argument("--object", type=int, default=1, metavar="N", help="which object, from 1")
 
 
@@ -234,13 +243,23 @@ def _steps(text):
     raise argparse.ArgumentTypeError(f"'{text}' is not LOW:HIGH:STEP in degrees, as in -90:90:1")
 
 
+def _lesson(parser):
+    parser.add_argument("lesson", metavar="LESSON", help="`lumiar list lessons`, or a .toml file")
+    text = "for its slides, .png each (default: the lesson's name)"
+    parser.add_argument("-o", "--output", metavar="FOLDER", help=text)
+    parser.add_argument("--lang", choices=("en", "pt"), help="language of the slides")
+    parser.add_argument("--size", metavar="WxH", help="pixels (default: 1920x1080)")
+    _timeout(parser)
+
+
 def _list(parser):
-    kinds = ("models", "lights", "meshes", "materials", "scenes")
+    kinds = ("models", "lights", "meshes", "materials", "scenes", "lessons")
     parser.add_argument("kind", nargs="?", choices=kinds)
     parser.add_argument("--json", action="store_true", help="with every parameter, for programs")
 
 
 _VERBS = {
+    "view": ("Open a window, in which a scene is turned, lit and edited.", _view),
     "capture": ("Draw a scene to a picture, or to a captioned sheet of pictures.", _capture),
     "probe": ("Tell the light at one point of a picture, in watts and in lumens.", _probe),
     "info": ("Tell what a mesh, a model, a light, a scene or a Lumiar picture holds.", _info),
@@ -249,5 +268,6 @@ _VERBS = {
     "audit": ("Test what models claim, and how exact and fast they are; exit 1 if broken.", _audit),
     "measure": ("Measure models at any angles, as a gonioreflectometer would.", _measure),
     "formfactor": ("Tell solid angles and form factors from a patch or a polygon.", _formfactor),
+    "lesson": ("Draw a lesson as slides, a question before each answer.", _lesson),
     "list": ("List what there is to choose from.", _list),
 }

@@ -56,6 +56,7 @@ TEXT = {
             "empty": "no surface",
             "broken": "not a number",
         },
+        "lesson": {"ask": "Predict first", "reveal": "What happens"},
         "nusselt": {
             "title": "Solid angle and form factor by Nusselt's projection",
             "disk": "From above: F is the share of the disk in shadow",
@@ -144,6 +145,7 @@ TEXT = {
             "empty": "sem superfície",
             "broken": "não é um número",
         },
+        "lesson": {"ask": "Preveja antes", "reveal": "O que acontece"},
         "nusselt": {
             "title": "Ângulo sólido e fator de forma pela projeção de Nusselt",
             "disk": "De cima: F é a fração do disco na sombra",

@@ -24,6 +24,14 @@ def open_context():
         raise Mistake(f"needs OpenGL 3.3, but none could be opened ({reason}); {INSTALL}") from None
 
 
+def window_context():
+    """Return the moderngl context of the window whose OpenGL context is the current one."""
+    try:
+        return moderngl.create_context(require=330)
+    except Exception as error:  # moderngl raises nothing more specific
+        raise Mistake(f"needs OpenGL 3.3 ({one_line(error, 120)}); {INSTALL}") from None
+
+
 def compiled(context, sources):
     """Return the program of sources {stage: Source}; raise Mistake naming file:line."""
     texts = {f"{stage}_shader": source.text for stage, source in sources.items()}

@@ -4,11 +4,12 @@ import os
 import sys
 
 VERBS = (
-    *("capture", "probe", "info", "source", "compare"),
-    *("measure", "formfactor", "audit", "list"),
+    *("view", "capture", "probe", "info", "source", "compare"),
+    *("measure", "formfactor", "audit", "lesson", "list"),
 )
 HELP = """usage: lumiar VERB … (lumiar VERB --help tells more)
 
+  view [SCENE]     open a window: turn, light and edit a scene, watch your shader change
   capture [SCENE]  draw a scene to a picture: .png, or .hdr and .npy for linear radiance
   probe [SCENE]    the light at one point of its picture: radiance, irradiance, angles, shares
   info FILE        what a mesh, a model, a light, a scene or a Lumiar picture holds
@@ -17,7 +18,8 @@ HELP = """usage: lumiar VERB … (lumiar VERB --help tells more)
   measure MODEL …  scatter, lobes and albedo of models at any angles: .csv, .npz or a picture
   formfactor       solid angles and form factors of polygons: exact, by Nusselt, by Monte Carlo
   audit [MODEL …]  the data sheet: claims tested, hard cases, float32 error, cost; 1 if broken
-  list             the models, lights, meshes, materials and scenes there are
+  lesson NAME      a lesson as slides, .png in a folder; a question before each answer
+  list             the models, lights, meshes, materials, scenes and lessons there are
 
 SCENE is a shipped scene, a .toml file, a .png that Lumiar made, a mesh or a .glsl model.
 exit codes: 0 done; 1 the renderer or the disk failed, compare found too much, or audit a broken

@@ -157,6 +157,12 @@ def view(scene, placed):
     }
 
 
+def viewpoint(scene, geometries):
+    """Return (eye, target) of the eye of a scene; geometries holds the Geometry of each object."""
+    pairs = zip(scene.objects, geometries, strict=True)
+    return _looks(scene, [_sphere(one, mesh, _world(one, mesh)) for one, mesh in pairs])[:2]
+
+
 def _looks(scene, spheres):
     """Return (eye, target, near, far) of the eye of a scene with such spheres in it."""
     aspect = scene.size[0] / scene.size[1]

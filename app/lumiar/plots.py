@@ -168,8 +168,7 @@ def _numbers(axes, numbers, words):
 
 def drawn(draw, inches, ending):
     """Return the bytes of a figure that `draw` fills, the same wherever it is drawn."""
-    os.environ.setdefault("MPLCONFIGDIR", os.path.join(cache_folder(), "matplotlib"))
-    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # such as that a cache is being made
+    _quiet()
     import matplotlib
     from matplotlib import font_manager
     from matplotlib.figure import Figure
@@ -185,3 +184,34 @@ def drawn(draw, inches, ending):
         draw(figure)
         figure.savefig(out, format=ending[1:], metadata=undated)
     return out.getvalue()
+
+
+def formula(latex, size):
+    """Return (width, height, bytes) of a formula as coverage, 0 to 255, letters of `size` pixels.
+
+    Its lines stand below each other. Raises ValueError for what is not LaTeX that mathtext knows.
+    """
+    _quiet()
+    import matplotlib
+    from matplotlib.mathtext import MathTextParser
+
+    with matplotlib.rc_context(), warnings.catch_warnings():
+        warnings.simplefilter("error")  # a sign that no font has
+        matplotlib.rcdefaults()
+        matplotlib.rcParams["mathtext.fontset"] = "stix"
+        matplotlib.rcParams["font.size"] = size
+        try:
+            rows = [MathTextParser("agg").parse(f"${row}$", 72) for row in latex.split("\n")]
+        except (UserWarning, RecursionError) as error:
+            raise ValueError(str(error)) from None
+    images = [np.asarray(row.image) for row in rows]
+    step, width = round(0.45 * size), max(image.shape[1] for image in images)
+    images = [np.pad(image, ((0, step), (0, width - image.shape[1]))) for image in images]
+    page = np.concatenate(images)[:-step]
+    return width, len(page), page.astype(np.uint8).tobytes()
+
+
+def _quiet():
+    """Keep matplotlib's cache in ours, and its notes, such as that it is being made, to itself."""
+    os.environ.setdefault("MPLCONFIGDIR", os.path.join(cache_folder(), "matplotlib"))
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)

@@ -89,6 +89,30 @@ class Renderer(OnCard):
             *values, surface = struct.unpack("4f", held.read(components=4, dtype="f4"))
         return tuple(values) if surface or shows == "radiance" else None
 
+    def show(self, scene, picture):
+        """Draw a whole scene into a framebuffer of its size: sRGB, top row first, as `strips`."""
+        side = math.isqrt(scene.samples)
+        self._check_size(*scene.size, side)
+        with self.context:
+            radiance, _ = self._target(*scene.size, side, False)
+            radiance.viewport = (0, 0, *radiance.size)
+            picture.viewport = (0, 0, *scene.size)
+            self.present(scene, self._accumulated(scene, radiance, (0, 0), "radiance"), picture)
+
+    def forget(self, text):
+        """Free the programs made with a GLSL file's text that was edited since."""
+        self._drawn = (None, "", [])
+        for key in [key for key in self._programs if text in key]:
+            program = self._programs.pop(key)
+            self._stock.forget_program(program)
+            if key in self._screens:
+                self._screens.pop(key).release()
+            program.release()
+
+    def viewpoint(self, scene):
+        """Return where the eye of a scene is, and what it looks at."""
+        return layout.viewpoint(scene, [self._stock.mesh(one)[0] for one in scene.objects])
+
     def _strip(self, scene, linear, side, rows, top, shows):
         width, height = scene.size
         count = min(rows, height - top)

@@ -3,7 +3,7 @@
 import json
 import os
 
-from . import catalog, geometry, materials, scenefile, settings
+from . import catalog, geometry, lesson, materials, scenefile, settings
 from .errors import Mistake, nearest
 from .scene import Scene
 
@@ -31,7 +31,7 @@ def describe(name, as_json=False):
 
 
 def everything(kind=None, as_json=False, lang="en"):
-    """Return the list of what is shipped: models, lights, meshes or scenes; all for kind None."""
+    """Return the list of what is shipped: models, lights, meshes, … lessons; all for kind None."""
     found = {
         "models": [_shader(catalog.read("model", n)) for n in catalog.names("model")],
         "lights": [_shader(catalog.read("light", n)) for n in catalog.names("light")],
@@ -42,6 +42,7 @@ def everything(kind=None, as_json=False, lang="en"):
         + [{"name": n, "file": path} for n, path in geometry.shipped().items()],
         "materials": [_material(n) for n in materials.names()],
         "scenes": [_titled(n) for n in scenefile.shipped()],
+        "lessons": [{"name": n, "title": lesson.load(n).title} for n in lesson.shipped()],
     }
     found = {key: value for key, value in found.items() if kind in (None, key)}
     if as_json:

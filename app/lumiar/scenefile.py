@@ -262,22 +262,35 @@ def _panel(file, index, data, scene):
     if other and other not in shipped():
         confine(other, "scene", file.folder, file.content, where("scene"))
         other = os.path.join(file.folder, other)
-    values, given = [], data.get("set", {})
+    values, _ = settings_of(data.get("set", {}), scene, file.folder, file.content, where("set"))
+    caption = _words(data.get("caption", {}), "caption", where("caption"))
+    return Panel(caption, values, other)
+
+
+def settings_of(given, scene, folder, content, where):
+    """Return (checked (key, value) pairs, the scene with them) of a table `set` from a file.
+
+    given    {key: value} as TOML has it
+    folder   of the file: relative paths begin there, and no other files are opened but those whose
+             digests `content` knows
+
+    Raises Mistake, its line beginning with `where`.
+    """
     if not isinstance(given, dict):
-        raise Mistake(f"{where('set')}set = {given!r}; write set = {{ key = value, … }}")
-    for key, value in given.items():
+        raise Mistake(f"{where}set = {given!r}; write set = {{ key = value, … }}")
+    values = []
+    for key, value in settings.models_first(given.items()):
         kind = key.rpartition(".")[2]
         name, *rest = settings.light_parts(str(value)) if kind == "light" else [str(value)]
         named = [(name, kind)] if kind in ("mesh", "model", "light", "image") else []
         named += [(part[6:], "image") for part in rest if part.startswith("image=")]
         for path, what in named:
-            confine(path, what, file.folder, file.content, where("set"))
+            confine(path, what, folder, content, where)
         value = tuple(value) if isinstance(value, list) else value
-        value = settings.canonical(key, value, where("set"), file.folder)
-        scene = settings.changed(scene, key, value, where("set"))
+        value = settings.canonical(key, value, where, folder)
+        scene = settings.changed(scene, key, value, where)
         values.append((key, value))
-    caption = _words(data.get("caption", {}), "caption", where("caption"))
-    return Panel(caption, tuple(values), other)
+    return tuple(values), scene
 
 
 def _names(data, defaults, where):

@@ -49,10 +49,15 @@ def all_changed(scene, pairs, where="", folder=""):
 
     A model brings its own defaults along, which must not undo what was set beside it.
     """
-    order = {"model": 0, "material": 1}
-    for key, value in sorted(pairs, key=lambda pair: order.get(pair[0].rpartition(".")[2], 2)):
+    for key, value in models_first(pairs):
         scene = changed(scene, key, value, where, folder)
     return scene
+
+
+def models_first(pairs):
+    """Return (key, value) pairs in the order in which they are to be changed."""
+    order = {"model": 0, "material": 1}
+    return sorted(pairs, key=lambda pair: order.get(pair[0].rpartition(".")[2], 2))
 
 
 def keys(scene):

@@ -49,6 +49,11 @@ class Stock:
             buffer.release()
         self.meshes.clear()
 
+    def forget_program(self, program):
+        """Free what feeds meshes to a program."""
+        for key in [key for key in self.arrays if key[0] == program]:
+            self.arrays.pop(key).release()
+
     def array(self, program, entry):
         """Return the vertex array that feeds a mesh to a program, without what it does not take."""
         key = (program, entry[1])

@@ -6,6 +6,7 @@ forked before anything heavy is imported; the parent stays a bare Python that wa
 """
 
 import contextlib
+import math
 import os
 import signal
 import sys
@@ -16,6 +17,7 @@ from .files import announce
 TIMEOUT = 120.0  # seconds, unless the child asks for another limit
 MEMORY = 4 << 30  # bytes the child may hold; the size check admits no picture that needs more
 POLL = 0.05  # seconds between two looks at the child
+LEISURE = 1.0  # between those at one without a time limit, which may be idle
 _LIMIT = "limit="
 
 
@@ -40,10 +42,14 @@ def supervised(job):
 
 
 def limit_time(seconds):
-    """Ask the supervising process, if there is one, to end this one `seconds` after its start."""
+    """Ask the supervising process, if there is one, to end this one `seconds` after its start.
+
+    With math.inf it lasts as long as it likes.
+    """
     if "LUMIAR_SUPERVISOR" in os.environ:
         announce(f"{_LIMIT}{seconds}")
-        signal.alarm(int(seconds) + 5)  # even if the parent itself is killed, this process ends
+        # even if the parent itself is killed, this process ends
+        signal.alarm(0 if seconds == math.inf else int(seconds) + 5)
 
 
 def _be_the_child(job, channel):
@@ -91,7 +97,7 @@ def _watch(child, listen):
     heard, why, code = b"", "", 1
     try:
         while not why:
-            if select.select([listen], [], [], POLL)[0]:
+            if select.select([listen], [], [], POLL if seconds < math.inf else LEISURE)[0]:
                 message = os.read(listen, 65536)
                 if not message:  # the child has ended
                     break

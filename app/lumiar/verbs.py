@@ -1,13 +1,44 @@
 """What each verb does with its options; each returns an exit code."""
 
 import contextlib
+import math
 import os
 import sys
 import time
 
 from . import options as given
-from .errors import Mistake
+from .errors import Mistake, one_line
 from .supervise import limit_time
+
+LESSON_TIME = 600.0  # seconds: dozens of pictures
+
+
+def view(options):
+    """Open a window with a scene, and return when it is closed."""
+    limit_time(math.inf)
+    from . import scenefile
+
+    if options.restore:
+        from . import opening
+
+        if options.scene:
+            raise Mistake(f"--restore: opens the last scene, not {options.scene}; leave one out")
+        options.scene = ""
+        scene = opening.kept()
+    else:
+        scene = given.scene(options)
+    try:
+        from .window import Viewer
+    except ImportError as error:
+        advice = "`lumiar capture` draws without a window"
+        raise Mistake(f"no window can be opened here ({one_line(error, 120)}); {advice}") from None
+    path = scenefile.shipped().get(options.scene) or os.path.abspath(options.scene or "")
+    path = path if path.endswith(".toml") else ""
+    name = os.path.splitext(os.path.basename(options.scene or ""))[0]
+    lang = options.lang or (scene.lang if scene.lang in scenefile.LANGUAGES else "")
+    with Viewer(scene, lang or scenefile.system_language(), name, path) as viewer:
+        viewer.run()
+    return 0
 
 
 def capture(options):
@@ -144,6 +175,29 @@ def compare(options):
         if options.output:
             print(f"{options.output}  (white: {white:.6g})")
     return 1 if over else 0
+
+
+def lesson(options):
+    """Draw a lesson as slides into a folder and print their paths."""
+    from . import deck, scenefile
+    from . import lesson as lessons
+    from .parts import SCENE
+    from .renderer import Renderer
+
+    limit_time(options.timeout or LESSON_TIME)
+    one = lessons.load(options.lesson, os.getcwd())
+    size = SCENE["size"].read(options.size or "1920x1080", "--size: ")
+    folder = options.output or one.name
+    if os.path.exists(folder) and not os.path.isdir(folder):
+        raise Mistake(f"{folder}: is a file; name a folder for the slides with -o")
+    lang = options.lang or scenefile.system_language()
+    with Renderer() as renderer:
+        paths, broken = deck.write(one, folder, lang, size, renderer, _Progress(folder))
+    print(*paths, sep="\n")
+    if broken:
+        text = f"{broken} pixels have no finite radiance (NaN or infinite); they are magenta"
+        print(f"lumiar: {folder}: {text}", file=sys.stderr)
+    return 0
 
 
 def list(options):

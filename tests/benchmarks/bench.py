@@ -24,6 +24,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         os.environ["XDG_CACHE_HOME"] = folder
         figures = {"machine": machine(), **cold(Path(folder)), **frames(), **switches()}
+        figures |= panels()
     if len(sys.argv) > 1:
         Path(sys.argv[1]).write_text(json.dumps(figures, indent=2) + "\n")
 
@@ -155,6 +156,34 @@ def switches():
             "p95": 1e3 * sorted(times)[-len(times) // 20],
         }
         print(f"{name:62} {found[name]['ms']:7.3f} ms, 95 % under {found[name]['p95']:.3f}")
+    return found
+
+
+def panels():
+    """Return what a frame of the window's panel costs, all of it in view, without drawing it."""
+    from imgui_bundle import imgui
+
+    from lumiar import Scene, panel
+
+    found, context = {}, imgui.create_context()
+    io = imgui.get_io()
+    io.backend_flags |= imgui.BackendFlags_.renderer_has_textures
+    io.display_size, io.delta_time = (1920.0, 4000.0), 1.0 / 60.0
+    panel.prepare()
+    for name in ("teapot", "lights", "room-corner"):
+        scene, state, times = Scene.load(name), panel.State("en"), []
+        for _ in range(300):
+            start = time.perf_counter()
+            imgui.new_frame()
+            panel.draw(scene, state)
+            imgui.render()
+            times.append(time.perf_counter() - start)
+            for texture in imgui.get_platform_io().textures:
+                texture.set_tex_id(1)
+                texture.set_status(imgui.ImTextureStatus.ok)
+        found[f"panel, {name}"] = cost = 1e3 * statistics.median(times)
+        print(f"{'panel of ' + name:48} {cost:8.2f} ms a frame, at most 2")
+    imgui.destroy_context(context)
     return found
 
 

@@ -1,0 +1,108 @@
+"""What is open in the window: pages of scenes, their history, and the files they are made from."""
+
+import os
+
+from . import catalog, opening
+from .errors import Mistake, one_line
+from .history import History
+from .scene import Scene
+from .watch import Watch
+
+
+class Document:
+    """A scene as edited, and all that it takes to undo, to go back, and to follow saved files.
+
+    name    of the scene, and path that of its file, or ""
+    home    the scene as it was opened; pages and page: (captions, Scene) of a sheet, and which
+    fault   the line of what is wrong in a file, until it is put right
+    """
+
+    def __init__(self, scene, name="", path=""):
+        self.watch, self._fresh, self._memory = Watch(), {}, {}
+        self.fault, self.history, self._known = "", None, (None, None)
+        self.open(scene, name, path)
+
+    @property
+    def scene(self):
+        """The scene as it is, its shaders as their files are."""
+        if self._known[0] is not self.history.scene:
+            now = opening.renewed(self.history.scene, self._fresh, self._memory)
+            self._known = (self.history.scene, now)
+        return self._known[1]
+
+    @property
+    def caption(self):
+        """{language: line} of what is shown."""
+        return self.pages[self.page][0]
+
+    def open(self, scene, name="", path=""):
+        """Show a scene, or the first picture of a sheet, instead of what was shown."""
+        self.pages, self.page = opening.pages(scene), 0
+        self.name, self.path = name, path
+        self._begin()
+
+    def turn(self, step):
+        """Show the picture of the sheet that is so many further on, if there is one."""
+        if 0 <= self.page + step < len(self.pages):
+            self.page += step
+            self._begin()
+
+    def push(self, scene, key=None):
+        """Make a scene the one that is; see `History.push`."""
+        if scene is not self.scene:
+            self.history.push(scene, key)
+            self._follow()
+
+    def undo(self):
+        """Go back a step."""
+        self.history.undo()
+        self._follow()
+
+    def redo(self):
+        """Take the step again that was undone last."""
+        self.history.redo()
+        self._follow()
+
+    def drop(self, path, chosen=0):
+        """Bring a file into the scene, or open it if it is one; chosen: the object meant."""
+        try:
+            scene = opening.dropped(self.scene, path, chosen)
+            if opening.is_scene(path):
+                self.open(scene, os.path.splitext(os.path.basename(path))[0], path)
+            else:
+                self.push(scene)
+            self.fault = ""
+        except (Mistake, OSError) as mistake:
+            self.fault = one_line(mistake)
+
+    def reload(self, paths=None):
+        """Read files again that were saved, or all; return the names of those that could be."""
+        own = {self.path} if self.path else set()
+        paths = {*opening.sources(self.scene), *own} if paths is None else set(paths)
+        try:
+            if paths & own:
+                self.pages = opening.pages(Scene.load(self.path))
+                self.page = min(self.page, len(self.pages) - 1)
+                self._begin()
+            shaders = {
+                shader.path: catalog.read(shader.kind, shader.name)
+                for shader in opening.shaders(self.scene)
+                if shader.path in paths
+            }
+        except Mistake as mistake:
+            self.fault = one_line(mistake)
+            return []
+        self._fresh |= shaders
+        self._known, self.fault = (None, None), ""
+        return sorted(map(os.path.basename, paths))
+
+    def _begin(self):
+        self.home = self.pages[self.page][1]
+        if self.history:
+            self.history.push(self.home)
+        else:
+            self.history = History(self.home)
+        self._follow()
+
+    def _follow(self):
+        self.watch.follow([*opening.sources(self.scene), *([self.path] if self.path else [])])

@@ -1,0 +1,92 @@
+"""The panel of the window: a pure function from a Scene to the Scene as edited in it. No OpenGL."""
+
+import os
+from dataclasses import dataclass
+
+from imgui_bundle import imgui
+
+from . import scenefile, sections
+from .files import ASSETS
+from .words import TEXT
+
+FONT = os.path.join(ASSETS, "fonts", "DejaVuSans.ttf")
+_RED = (1.0, 0.55, 0.5, 1.0)
+
+
+@dataclass
+class State:
+    """What the panel remembers that is no part of the scene.
+
+    chosen    index of the object whose model is shown
+    message   the line of the last mistake, until something succeeds
+    gesture   a number while a widget is held, another one for each time: a key for History
+    view      (eye, target) of the picture as it is, at which values that were left out begin
+    width     of the panel, in pixels of the screen
+    """
+
+    lang: str = ""
+    chosen: int = 0
+    message: str = ""
+    gesture: int | None = None
+    view: tuple | None = None
+    width: float = 0.0
+    holds: int = 0
+
+
+def prepare(size=16.0):
+    """Give ImGui's current context the font and the colours of Lumiar; size: of letters, pixels."""
+    io = imgui.get_io()
+    io.set_ini_filename("")
+    if not io.fonts.fonts:
+        io.fonts.add_font_from_file_ttf(FONT, size)
+    imgui.style_colors_dark()
+    style = imgui.get_style()
+    style.font_size_base = size
+    style.frame_rounding = style.grab_rounding = style.popup_rounding = 3.0
+    style.set_color_(imgui.Col_.window_bg, (0.09, 0.1, 0.12, 0.97))
+    style.set_color_(imgui.Col_.popup_bg, (0.05, 0.06, 0.07, 1.0))
+    style.set_color_(imgui.Col_.frame_bg, (0.19, 0.21, 0.25, 1.0))
+    for grab in (imgui.Col_.slider_grab, imgui.Col_.slider_grab_active):
+        style.set_color_(grab, (0.2, 0.42, 0.75, 1.0))
+    style.set_color_(imgui.Col_.button, (0.16, 0.38, 0.68, 1.0))
+    style.set_color_(imgui.Col_.text_disabled, (0.62, 0.66, 0.72, 1.0))
+
+
+def draw(scene, state):
+    """Draw the panel at the left of the window and return the scene as changed in it.
+
+    The same scene comes back where nothing was changed. What cannot be is said in state.message.
+    """
+    state.lang = state.lang or scenefile.system_language()
+    words, em = TEXT[state.lang], imgui.get_font_size()
+    area = imgui.get_main_viewport()
+    height = area.work_size.y
+    imgui.set_next_window_pos(area.work_pos)
+    imgui.set_next_window_size((27.0 * em, height), imgui.Cond_.first_use_ever)
+    imgui.set_next_window_size_constraints((20.0 * em, height), (60.0 * em, height))
+    flags = imgui.WindowFlags_.no_title_bar | imgui.WindowFlags_.no_move
+    imgui.begin("panel", None, flags | imgui.WindowFlags_.no_saved_settings)
+    state.width = imgui.get_window_width()
+    _top(state, words)
+    for section in (sections.objects, sections.lights, sections.picture, sections.camera):
+        scene = section(scene, state, words)
+    imgui.end()
+    held = imgui.is_any_item_active()
+    if held and state.gesture is None:
+        state.holds += 1
+    state.gesture = state.holds if held else None
+    return scene
+
+
+def _top(state, words):
+    for lang in scenefile.LANGUAGES:
+        if imgui.radio_button(lang, state.lang == lang):
+            state.lang = lang
+        imgui.same_line()
+    imgui.new_line()
+    if state.message:
+        imgui.push_text_wrap_pos(0.0)
+        imgui.text_colored(_RED, state.message)
+        imgui.pop_text_wrap_pos()
+        if imgui.small_button(words["close"]):
+            state.message = ""

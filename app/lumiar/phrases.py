@@ -1,0 +1,48 @@
+"""The words that the window itself says, in the languages that Lumiar speaks."""
+
+TEXT = {
+    "en": {
+        "saved": "saved {}",
+        "restored": "as the last window was",
+        "reloaded": "{} read again",
+        "page": "{} of {}",
+        "last": "the last picture that could be drawn",
+        "keys": (
+            ("left drag", "turn the view"),
+            ("right, middle or Shift drag", "move the view"),
+            ("wheel", "nearer, farther"),
+            ("Alt + left drag", "move the light"),
+            ("R", "view as at the start"),
+            ("Ctrl Z, Ctrl Shift Z", "undo, redo"),
+            ("PageUp, PageDown", "pictures of a sheet"),
+            ("F5", "read all files again"),
+            ("F12", "save the picture, with its scene"),
+            ("H, F11", "hide the panel, full screen"),
+            ("F1", "this help"),
+            ("Esc", "quit"),
+            ("drop a file", "mesh, .glsl, scene, .hdr, Lumiar .png"),
+        ),
+    },
+    "pt": {
+        "saved": "{} salvo",
+        "restored": "como estava a última janela",
+        "reloaded": "{} lido de novo",
+        "page": "{} de {}",
+        "last": "a última imagem que pôde ser desenhada",
+        "keys": (
+            ("arrastar, botão esquerdo", "girar a vista"),
+            ("botão direito, do meio ou Shift", "mover a vista"),
+            ("roda", "mais perto, mais longe"),
+            ("Alt + botão esquerdo", "mover a luz"),
+            ("R", "vista do início"),
+            ("Ctrl Z, Ctrl Shift Z", "desfazer, refazer"),
+            ("PageUp, PageDown", "imagens de uma folha"),
+            ("F5", "ler todos os arquivos de novo"),
+            ("F12", "salvar a imagem, com a cena"),
+            ("H, F11", "ocultar o painel, tela cheia"),
+            ("F1", "esta ajuda"),
+            ("Esc", "sair"),
+            ("soltar um arquivo", "malha, .glsl, cena, .hdr, .png do Lumiar"),
+        ),
+    },
+}

@@ -1,0 +1,283 @@
+"""The window: input → next Scene, its picture, the panel on it; drawn only when something moved."""
+
+import contextlib
+import itertools
+import os
+import time
+
+from imgui_bundle import imgui
+
+from . import banner, hands, opening, panel, picture
+from .desktop import LETTERS, Desktop, glfw
+from .document import Document
+from .errors import Mistake, one_line
+from .overlay import Overlay
+from .phrases import TEXT
+from .renderer import Renderer
+
+SIZE = (1280, 800)
+IDLE = 0.15  # seconds between two looks at the files
+FRAMES = 3  # that imgui takes to settle after an event
+LINGER = 0.7  # seconds after which a tooltip has come up
+NOTICE = 4.0  # seconds that a message of something done stays
+PROMPT = 0.04  # seconds that a picture may take while it moves
+REST = 0.2  # seconds without a change before one that takes longer is drawn in full
+KEEP = 2.0  # seconds between two times that the scene is put by
+
+
+class Viewer:
+    """A window with a scene; `run` it, or turn it frame by frame, then release it, or use `with`.
+
+    name and path are those of the scene; hidden opens it without a display.
+    """
+
+    def __init__(self, scene, lang, name="", path="", hidden=False, size=SIZE):
+        self.document = Document(scene, name, path)
+        self.desktop = Desktop(size, "Lumiar", hidden)
+        context = self.desktop.context
+        self.renderer, self.overlay, self.canvas = Renderer(context), Overlay(context), None
+        panel.prepare(LETTERS * self.desktop.scale)
+        imgui.get_style().scale_all_sizes(self.desktop.scale)
+        self.state, self.hands = panel.State(lang=lang), hands.Hands()
+        self.good, self.drawn, self.view = None, None, None
+        self.fault, self.notice, self.titled = "", ("", 0.0), ""
+        self.cost = self.moved = self.awake = 0.0
+        self.with_panel, self.with_keys, self.due = True, False, FRAMES
+        self.kept, self.kept_at = None, time.monotonic()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.release()
+
+    def release(self):
+        """Put the scene by, and close the window; the second time does nothing."""
+        if self.desktop.window:
+            self._keep()
+            self.desktop.use()
+            self._drop_canvas()
+            self.overlay.release()
+            self.renderer.release()
+            self.desktop.release()
+
+    @property
+    def scene(self):
+        """The scene as edited."""
+        return self.document.scene
+
+    def run(self):
+        """Turn until the window is closed."""
+        while not self.desktop.closing:
+            wait = 0.0 if self.due else 0.05 if self.document.watch.restless else IDLE
+            self.frame(min(wait, 0.1) if self._lingers(time.monotonic()) else wait)
+
+    def frame(self, wait=0.0):
+        """Take what came, for up to `wait` seconds; draw if anything moved; return whether."""
+        events, now = self.desktop.take(wait), time.monotonic()
+        saved = self.document.watch.changed(now)
+        if events or saved or self.due or self._lingers(now):
+            self.desktop.use()
+        if events:
+            self.due, self.awake = FRAMES, now + LINGER
+        for event, *how in events:
+            getattr(self, f"_on_{event}")(*how)
+        if saved:
+            self._reload(saved)
+        if not (self.due or self._lingers(now)) or 0 in self.desktop.size:
+            if now - self.kept_at > KEEP:
+                self._keep()
+            return False
+        self.due = max(0, self.due - 1)
+        self._frame(now)
+        return True
+
+    def _lingers(self, now):
+        coarse = self.drawn and self.drawn[2]
+        return now < self.awake or now < self.notice[1] or coarse
+
+    def _frame(self, now):
+        desktop = self.desktop
+        desktop.begin()
+        imgui.get_style().font_size_base = LETTERS * desktop.scale
+        if self.with_panel:
+            self.state.view = self.view
+            self._push(panel.draw(self.scene, self.state), self.state.gesture)
+        left, size = self._area()
+        self._draw(size, now)
+        self._say_over(left, size, now)
+        imgui.render()
+        screen = desktop.context.screen
+        self.overlay.picture(self.canvas.color_attachments[0], screen, left)
+        self.overlay.widgets(imgui.get_draw_data(), screen, desktop.size)
+        desktop.show()
+        title = f"{self.document.name} · Lumiar".removeprefix(" · ")
+        if title != self.titled:
+            desktop.title(title)
+            self.titled = title
+
+    def _area(self):
+        """Return (left, (width, height)) in pixels of where the picture goes."""
+        width, height = self.desktop.size
+        left = round(self.state.width * width / imgui.get_io().display_size.x)
+        left = min(left, width - 1) if self.with_panel else 0
+        return left, (width - left, height)
+
+    def _draw(self, size, now):
+        """Bring the picture up to date; where that cannot be, the last good scene stays.
+
+        A picture that takes long has one sample per pixel while it moves, all of them at rest.
+        """
+        coarse = self.cost > PROMPT and now - self.moved < REST
+        if self.drawn in ((self.scene, size, False), (self.scene, size, coarse)):
+            return
+        began = time.perf_counter()
+        try:
+            shown = self._show(self.scene, size, coarse)
+        except Mistake as mistake:
+            self.fault = one_line(mistake)
+            if self.good is None:
+                raise
+            with contextlib.suppress(Mistake):  # larger than any picture can be
+                shown = self._show(self.good, size, coarse)
+                self.view = self.renderer.viewpoint(shown)
+        else:
+            self._forget_edited()
+            self.good, self.fault = self.scene, ""
+            self.view = self.renderer.viewpoint(shown)
+        self.desktop.context.finish()
+        self.cost = self.cost if coarse else time.perf_counter() - began
+        self.drawn = (self.scene, size, coarse)
+
+    def _forget_edited(self):
+        """Free what was compiled from files as they were before their last good save."""
+        texts = {shader.path: shader.text for shader in opening.shaders(self.scene)}
+        for old in opening.shaders(self.good) if self.good else ():
+            if texts.get(old.path, old.text) != old.text:
+                self.renderer.forget(old.text)
+
+    def _show(self, scene, size, coarse):
+        """Draw a scene into the canvas; return it as drawn."""
+        context, shown = self.desktop.context, hands.framed(scene, size)
+        if coarse:
+            shown = shown._replace(samples=1)
+        if self.canvas is None or self.canvas.size != size:
+            self._drop_canvas()
+            self.canvas = context.framebuffer([context.texture(size, 4)])
+        self.renderer.show(shown, self.canvas)
+        return shown
+
+    def _drop_canvas(self):
+        if self.canvas:
+            self.desktop.context.screen.use()
+            self.canvas.color_attachments[0].release()
+            self.canvas.release()
+            self.canvas = None
+
+    def _say_over(self, left, size, now):
+        """Say over the picture what has to be said."""
+        words, document = TEXT[self.state.lang], self.document
+        caption = picture.in_language(document.caption, self.state.lang)
+        if len(document.pages) > 1:
+            page = words["page"].format(document.page + 1, len(document.pages))
+            caption = f"{page}   {caption}".strip()
+        fault = (document.fault or self.fault).replace(os.getcwd() + os.sep, "")
+        fault = f"{fault}\n{words['last']}" if fault else ""
+        if not self.with_panel:
+            fault = fault or self.state.message
+        done = self.notice[0] if now < self.notice[1] and not fault else ""
+        points = imgui.get_io().display_size.x / self.desktop.size[0]
+        area = (left * points, size[0] * points, size[1] * points)
+        banner.draw(area, f"{1000.0 * self.cost:.1f} ms", caption, fault, done)
+        if self.with_keys:
+            banner.keys(area, words["keys"])
+
+    def _push(self, scene, key=None):
+        if scene is not self.scene:
+            self.document.push(scene, key)
+            self.due, self.moved = FRAMES, time.monotonic()
+
+    def _on_press(self, button, held):
+        if not self.desktop.io.want_capture_mouse:
+            self.hands.press(button, held)
+
+    def _on_release(self, _):
+        self.hands.release()
+        self.document.history.push(self.document.history.scene)  # ends the step
+
+    def _on_move(self, place):
+        looks = self._looks() if self.hands.holds and 0 not in self.desktop.size else (None, None)
+        self._push(*self.hands.move(self.scene, *looks, place))
+
+    def _on_wheel(self, notches):
+        if not self.desktop.io.want_capture_mouse and 0 not in self.desktop.size:
+            self._push(*self.hands.wheel(self.scene, *self._looks(), notches))
+
+    def _looks(self):
+        """Return the scene, or the last one that could be drawn, as framed, and its viewpoint."""
+        size = self._area()[1]
+        for scene in (self.scene, self.good):
+            try:
+                shown = hands.framed(scene, size)
+                return shown, self.renderer.viewpoint(shown)
+            except Mistake:
+                continue
+
+    def _on_drop(self, paths):
+        for path in paths:
+            self.document.drop(path, self.state.chosen)
+
+    def _on_other(self):
+        """Only drawn again."""
+
+    def _on_key(self, key, held):
+        io, popup = self.desktop.io, imgui.PopupFlags_.any_popup
+        if io.want_text_input or (key == glfw.KEY_ESCAPE and imgui.is_popup_open("", popup)):
+            return
+        document, forward = self.document, held & glfw.MOD_SHIFT
+        if held & (glfw.MOD_CONTROL | glfw.MOD_SUPER):
+            if key in (glfw.KEY_Z, glfw.KEY_Y):
+                (document.redo if forward or key == glfw.KEY_Y else document.undo)()
+        elif key == glfw.KEY_R:
+            self._push(self.scene._replace(camera=document.home.camera))
+        elif key in (glfw.KEY_PAGE_DOWN, glfw.KEY_PAGE_UP):
+            document.turn(1 if key == glfw.KEY_PAGE_DOWN else -1)
+        elif key == glfw.KEY_F5:
+            self.renderer.release()
+            self.renderer = Renderer(self.desktop.context)
+            self._reload(None)
+        elif key == glfw.KEY_F12:
+            self._screenshot()
+        elif key == glfw.KEY_F11:
+            self.desktop.toggle_full_screen()
+        elif key == glfw.KEY_H:
+            self.with_panel = not self.with_panel
+        elif key == glfw.KEY_F1:
+            self.with_keys = not self.with_keys
+        elif key == glfw.KEY_ESCAPE:
+            self.desktop.close()
+
+    def _reload(self, paths):
+        names = self.document.reload(paths)
+        self.due, self.drawn = FRAMES, None
+        if names:
+            self._tell("reloaded", ", ".join(names))
+
+    def _screenshot(self):
+        paths = (f"lumiar-{i:03}.png" for i in itertools.count(1))
+        path = next(path for path in paths if not os.path.exists(path))
+        try:
+            picture.write(hands.framed(self.good, self._area()[1]), path, self.renderer)
+        except (Mistake, OSError) as error:
+            self.fault = one_line(error)
+        else:
+            self._tell("saved", path)
+
+    def _tell(self, word, what):
+        text = TEXT[self.state.lang][word].format(what)
+        self.notice = (text, time.monotonic() + NOTICE)
+
+    def _keep(self):
+        if self.kept is not self.good and self.good is not None:
+            opening.keep(self.good)
+            self.kept, self.kept_at = self.good, time.monotonic()
