@@ -106,6 +106,13 @@ def test_the_window_shows_what_capture_draws(viewer):
     assert len(np.unique(screen(viewer)[:, : left - 2].reshape(-1, 3), axis=0)) > 20  # the panel
 
 
+def test_a_window_opens_where_pictures_were_drawn_before(renderer):
+    renderer.draw(plain()._replace(size=(8, 8)))
+    with Viewer(plain(), "en", hidden=True, size=(32, 24)) as viewer:
+        settle(viewer)
+        assert shown(viewer).any()
+
+
 def test_a_scene_of_several_passes_at_rest_is_what_capture_draws_too():
     lamp = settings.light("sphere:samples=1100:radius=1")
     scene = plain()._replace(lights=(lamp,), samples=4)

@@ -27,7 +27,11 @@ def open_context():
 def window_context():
     """Return the moderngl context of the window whose OpenGL context is the current one."""
     try:
-        return moderngl.create_context(require=330)
+        moderngl.init_context()  # create_context would, once others are open, look for GLX alone
+        context = moderngl.get_context()
+        if context.version_code < 330:
+            raise ValueError(f"it has {context.version_code / 100}")
+        return context
     except Exception as error:  # moderngl raises nothing more specific
         raise Mistake(f"needs OpenGL 3.3 ({one_line(error, 120)}); {INSTALL}") from None
 
