@@ -27,7 +27,7 @@ class Spy:
         true = getattr(imgui, name)
         if name in _WIDGETS:
             return lambda *given, **named: self._drawn(name, true, given, named)
-        if name in ("text", "text_colored"):
+        if name in ("text", "text_colored", "text_unformatted"):
             return lambda *given: (self.said.append(given[-1]), true(*given))[1]
         if name == "push_id":
             return lambda part: (self.path.append(str(part)), true(part))[1]

@@ -3,6 +3,7 @@
 import os
 
 from . import catalog, opening
+from . import lesson as lessons
 from .errors import Mistake, one_line
 from .history import History
 from .scene import Scene
@@ -12,8 +13,10 @@ from .watch import Watch
 class Document:
     """A scene as edited, and all that it takes to undo, to go back, and to follow saved files.
 
+    scene   a Scene, or a Lesson, each stop of which is a page with a history of its own
     name    of the scene, and path that of its file, or ""
     home    the scene as it was opened; pages and page: (captions, Scene) of a sheet, and which
+    stops   of a lesson, one for each page, else []
     fault   the line of what is wrong in a file, until it is put right
     """
 
@@ -35,9 +38,15 @@ class Document:
         """{language: line} of what is shown."""
         return self.pages[self.page][0]
 
+    @property
+    def stop(self):
+        """The Stop of a lesson that is shown, or None."""
+        return self.stops[self.page] if self.stops else None
+
     def open(self, scene, name="", path=""):
         """Show a scene, or the first picture of a sheet, instead of what was shown."""
-        self.pages, self.page = opening.pages(scene), 0
+        self._take(scene)
+        self.page = 0
         self.name, self.path = name, path
         self._begin()
 
@@ -66,7 +75,8 @@ class Document:
     def drop(self, path, chosen=0):
         """Bring a file into the scene, or open it if it is one; chosen: the object meant."""
         try:
-            scene = opening.dropped(self.scene, path, chosen)
+            scene = lessons.load(path) if lessons.is_lesson(path) else None
+            scene = scene or opening.dropped(self.scene, path, chosen)
             if opening.is_scene(path):
                 self.open(scene, os.path.splitext(os.path.basename(path))[0], path)
             else:
@@ -81,7 +91,8 @@ class Document:
         paths = {*opening.sources(self.scene), *own} if paths is None else set(paths)
         try:
             if paths & own:
-                self.pages = opening.pages(Scene.load(self.path))
+                is_lesson = lessons.is_lesson(self.path)
+                self._take((lessons.load if is_lesson else Scene.load)(self.path))
                 self.page = min(self.page, len(self.pages) - 1)
                 self._begin()
             shaders = {
@@ -96,9 +107,15 @@ class Document:
         self._known, self.fault = (None, None), ""
         return sorted(map(os.path.basename, paths))
 
+    def _take(self, scene):
+        """Take the pages of a Scene or of a Lesson."""
+        self.stops = lessons.stops(scene) if isinstance(scene, lessons.Lesson) else []
+        shots = [stop.shot for stop in self.stops]
+        self.pages = [(shot.caption, shot.scene) for shot in shots] or opening.pages(scene)
+
     def _begin(self):
         self.home = self.pages[self.page][1]
-        if self.history:
+        if self.history and not self.stops:
             self.history.push(self.home)
         else:
             self.history = History(self.home)

@@ -16,6 +16,7 @@ MOST_STEPS, MOST_PICTURES, MOST_SLIDERS = 64, 3, 8
 _LESSON = ("title", "source", "scene", "set", "step")
 _LENGTHS = {"title": 60, "source": 90, "caption": 360, "formula": 300, "plain": 200}
 _LENGTHS |= {"ask": 260, "reveal": 300}  # letters: what a slide can show large
+_IS_LESSON = re.compile(r"^\s*\[\[\s*step\s*\]\]", re.M)
 _BLANKS = re.compile(r"[ \t]+")  # but no-break spaces
 _STEP = (*_LENGTHS, "scene", "set", "sliders", "compare")
 
@@ -66,6 +67,38 @@ class Lesson(NamedTuple):
     name: str
     title: dict
     steps: tuple[Step, ...]
+
+
+class Stop(NamedTuple):
+    """One halt on the way through a lesson: a step, its part ("", "ask", "reveal"), a Shot."""
+
+    step: Step
+    part: str
+    shot: Shot
+    number: int  # of the step, from 1
+    steps: int
+
+
+def stops(lesson):
+    """Return the Stops of a Lesson: one for each shot, of an answer only the last one."""
+    found, count = [], len(lesson.steps)
+    for number, step in enumerate(lesson.steps, 1):
+        part = "ask" if step.ask else ""
+        found += [Stop(step, part, shot, number, count) for shot in step.shown]
+        if step.ask:
+            found.append(Stop(step, "reveal", step.shots[-1], number, count))
+    return found
+
+
+def is_lesson(name, folder=""):
+    """Return whether a name is that of a lesson, or of a .toml file that has steps."""
+    if name in shipped() or not name.lower().endswith(".toml"):
+        return name in shipped()
+    try:
+        path = os.path.join(folder, os.path.expanduser(name))
+        return bool(_IS_LESSON.search(read_text(path, scenefile.LIMIT, "a lesson file")))
+    except Mistake:
+        return False
 
 
 def shipped():

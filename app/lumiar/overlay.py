@@ -42,6 +42,17 @@ class Overlay(OnCard):
         texture.use(0)
         self._screen.render(self.context.TRIANGLES, vertices=3)
 
+    def image(self, size, pixels):
+        """Return a new texture of RGBA, for `imgui.image`, that `drop` frees."""
+        made = self.context.texture(size, 4, pixels)
+        made.filter = (self.context.LINEAR, self.context.LINEAR)
+        self._textures[made.glo] = made
+        return imgui.ImTextureRef(made.glo)
+
+    def drop(self, image):
+        """Free what `image` has made."""
+        self._textures.pop(image.get_tex_id()).release()
+
     def widgets(self, data, framebuffer, size):
         """Draw imgui.ImDrawData over a framebuffer of size (width, height) in pixels."""
         for texture in imgui.get_platform_io().textures:

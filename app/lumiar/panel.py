@@ -10,6 +10,7 @@ from .files import ASSETS
 from .words import TEXT
 
 FONT = os.path.join(ASSETS, "fonts", "DejaVuSans.ttf")
+ALL = (sections.objects, sections.lights, sections.picture, sections.camera)
 _RED = (1.0, 0.55, 0.5, 1.0)
 
 
@@ -22,6 +23,7 @@ class State:
     gesture   a number while a widget is held, another one for each time: a key for History
     view      (eye, target) of the picture as it is, at which values that were left out begin
     width     of the panel, in pixels of the screen
+    restless  whether it has to be drawn once more, until all has its size
     """
 
     lang: str = ""
@@ -31,6 +33,7 @@ class State:
     view: tuple | None = None
     width: float = 0.0
     holds: int = 0
+    restless: bool = False
 
 
 def prepare(size=16.0):
@@ -52,9 +55,10 @@ def prepare(size=16.0):
     style.set_color_(imgui.Col_.text_disabled, (0.62, 0.66, 0.72, 1.0))
 
 
-def draw(scene, state):
+def draw(scene, state, parts=ALL):
     """Draw the panel at the left of the window and return the scene as changed in it.
 
+    parts: what it has, from above; each takes (scene, state, words) and returns the scene.
     The same scene comes back where nothing was changed. What cannot be is said in state.message.
     """
     state.lang = state.lang or scenefile.system_language()
@@ -62,13 +66,16 @@ def draw(scene, state):
     area = imgui.get_main_viewport()
     height = area.work_size.y
     imgui.set_next_window_pos(area.work_pos)
-    imgui.set_next_window_size((27.0 * em, height), imgui.Cond_.first_use_ever)
+    wide = 27.0 if parts is ALL else 23.0
+    imgui.set_next_window_size((wide * em, height), imgui.Cond_.first_use_ever)
     imgui.set_next_window_size_constraints((20.0 * em, height), (60.0 * em, height))
     flags = imgui.WindowFlags_.no_title_bar | imgui.WindowFlags_.no_move
-    imgui.begin("panel", None, flags | imgui.WindowFlags_.no_saved_settings)
+    imgui.begin(
+        "panel" if parts is ALL else "presenter", None, flags | imgui.WindowFlags_.no_saved_settings
+    )
     state.width = imgui.get_window_width()
     _top(state, words)
-    for section in (sections.objects, sections.lights, sections.picture, sections.camera):
+    for section in parts:
         scene = section(scene, state, words)
     imgui.end()
     held = imgui.is_any_item_active()

@@ -56,6 +56,44 @@ def objects(scene, state, words):
     return scene
 
 
+def model(scene, state, words):
+    """Draw the parameters of the chosen object's model, and nothing else."""
+    if not scene.objects:
+        return scene
+    state.chosen = min(state.chosen, len(scene.objects) - 1)
+    one, key = scene.objects[state.chosen], f"object.{state.chosen + 1}"
+    imgui.push_id(one.model.name)
+    scene = _parameters(scene, state, words, key, one.model, one.model.parameters, one.values)
+    imgui.pop_id()
+    return scene
+
+
+def some(scene, state, words, keys):
+    """Draw a row for each of some values, as `settings.changed` names them."""
+    first = next((key for key in keys if key.startswith("camera.")), "")
+    options = {"mesh": _meshes, "model": _models, "material": lambda: _materials(state.lang)}
+    for key in keys:
+        name, at = key.rpartition(".")[2], settings.found(scene, key)
+        imgui.push_id(key)
+        if key == first:  # lights have an azimuth, too
+            imgui.text_disabled(words["camera"])
+        if at:
+            one, value, lamp, address = at
+            one = editing.in_unit(lamp) if one.tinted else one
+            start = editing.start(one.name, state.view) if one.default is None else None
+            new = widgets.edit(one, value, words, "", start, scene.time)
+            if new != value:
+                scene = _set(scene, state, address if new is None else key, new)
+        elif name in options:
+            named = [one for one in scene.objects if f"{one.name}.{name}" == key]
+            now = (named or scene.objects)[0]
+            now = {"mesh": os.path.basename(now.mesh), "model": now.model.name}
+            got = _list(name, words, now.get(name, words["choose"]), options[name])
+            scene = scene if got is None else _set(scene, state, key, got)
+        imgui.pop_id()
+    return scene
+
+
 def lights(scene, state, words):
     """Draw every light with all it can be given, and the list from which one more is taken."""
     if not _section("lights", words):

@@ -70,6 +70,32 @@ def keys(scene):
     return dict.fromkeys(names)
 
 
+def found(scene, key):
+    """Return (Parameter, value, its Light or None, address) of what `changed` changes first.
+
+    The address is a key of one value only; None for what is chosen by its name, as a mesh.
+    """
+    first, _, rest = key.partition(".")
+    if key in SCENE:
+        return SCENE[key], getattr(scene, key), None, key
+    if first == "camera" and rest in CAMERA:
+        return CAMERA[rest], getattr(scene.camera, rest), None, key
+    objects, lights, rest = _addressed(scene, key)
+    for i in objects:
+        one, at = scene.objects[i], f"object.{i + 1}.{rest}"
+        if rest in OBJECT:
+            return OBJECT[rest], getattr(one, rest), None, at
+        if rest in one.values:
+            return one.model.parameter(rest), one.values[rest], None, at
+    for i in lights:
+        one, at = scene.lights[i], f"light.{i + 1}.{rest}"
+        if rest in LIGHT:
+            return LIGHT[rest], getattr(one, rest), one, at
+        if rest in one.values:
+            return one.kind.parameter(rest), one.values[rest], one, at
+    return None
+
+
 def canonical(key, value, where="", folder=""):
     """Return a value that means the same wherever the scene goes: paths in full."""
     kind = key.rpartition(".")[2]

@@ -16,6 +16,7 @@ LESSON_TIME = 600.0  # seconds: dozens of pictures
 def view(options):
     """Open a window with a scene, and return when it is closed."""
     limit_time(math.inf)
+    from . import lesson as lessons
     from . import scenefile
 
     if options.restore:
@@ -25,6 +26,11 @@ def view(options):
             raise Mistake(f"--restore: opens the last scene, not {options.scene}; leave one out")
         options.scene = ""
         scene = opening.kept()
+    elif lessons.is_lesson(options.scene or "", os.getcwd()):
+        keys = ("model", "material", "mesh", "shading", "light", "set")
+        for key in (key for key in keys if getattr(options, key)):
+            raise Mistake(f"--{key}: {options.scene} is a lesson; leave it out")
+        scene = lessons.load(options.scene, os.getcwd())
     else:
         scene = given.scene(options)
     try:
@@ -32,10 +38,12 @@ def view(options):
     except ImportError as error:
         advice = "`lumiar capture` draws without a window"
         raise Mistake(f"no window can be opened here ({one_line(error, 120)}); {advice}") from None
-    path = scenefile.shipped().get(options.scene) or os.path.abspath(options.scene or "")
+    named = {**scenefile.shipped(), **lessons.shipped()}
+    path = named.get(options.scene) or os.path.abspath(os.path.expanduser(options.scene or ""))
     path = path if path.endswith(".toml") else ""
     name = os.path.splitext(os.path.basename(options.scene or ""))[0]
-    lang = options.lang or (scene.lang if scene.lang in scenefile.LANGUAGES else "")
+    lang = getattr(scene, "lang", "")
+    lang = options.lang or (lang if lang in scenefile.LANGUAGES else "")
     with Viewer(scene, lang or scenefile.system_language(), name, path) as viewer:
         viewer.run()
     return 0

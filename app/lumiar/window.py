@@ -7,7 +7,7 @@ import time
 
 from imgui_bundle import imgui
 
-from . import banner, hands, opening, panel, picture
+from . import banner, hands, opening, panel, picture, presenter
 from .desktop import LETTERS, Desktop, glfw
 from .document import Document
 from .errors import Mistake, one_line
@@ -23,6 +23,7 @@ NOTICE = 4.0  # seconds that a message of something done stays
 PROMPT = 0.04  # seconds that a picture may take while it moves
 REST = 0.2  # seconds without a change before one that takes longer is drawn in full
 KEEP = 2.0  # seconds between two times that the scene is put by
+_TURNS = {glfw.KEY_PAGE_DOWN: 1, glfw.KEY_RIGHT: 1, glfw.KEY_PAGE_UP: -1, glfw.KEY_LEFT: -1}
 
 
 class Viewer:
@@ -39,6 +40,8 @@ class Viewer:
         panel.prepare(LETTERS * self.desktop.scale)
         imgui.get_style().scale_all_sizes(self.desktop.scale)
         self.state, self.hands = panel.State(lang=lang), hands.Hands()
+        self.presenter = presenter.Presenter(self.overlay)
+        self.presents = bool(self.document.stop)
         self.good, self.drawn, self.view = None, None, None
         self.fault, self.notice, self.titled = "", ("", 0.0), ""
         self.cost = self.moved = self.awake = 0.0
@@ -98,11 +101,14 @@ class Viewer:
 
     def _frame(self, now):
         desktop = self.desktop
+        high = glfw.get_window_size(desktop.window)[1] if self.presents else 0
+        imgui.get_style().font_size_base = max(high / presenter.LINES, LETTERS * desktop.scale)
         desktop.begin()
-        imgui.get_style().font_size_base = LETTERS * desktop.scale
         if self.with_panel:
-            self.state.view = self.view
-            self._push(panel.draw(self.scene, self.state), self.state.gesture)
+            self.state.view, self.state.restless = self.view, False
+            parts = self.presenter.parts(self.document.stop) if self.presents else panel.ALL
+            self._push(panel.draw(self.scene, self.state, parts), self.state.gesture)
+            self.due = max(self.due, 2 * self.state.restless)
         left, size = self._area()
         self._draw(size, now)
         self._say_over(left, size, now)
@@ -178,8 +184,10 @@ class Viewer:
         """Say over the picture what has to be said."""
         words, document = TEXT[self.state.lang], self.document
         caption = picture.in_language(document.caption, self.state.lang)
-        if len(document.pages) > 1:
-            page = words["page"].format(document.page + 1, len(document.pages))
+        stop = document.stop
+        at = (stop.number, stop.steps) if stop else (document.page + 1, len(document.pages))
+        if at[1] > 1:
+            page = words["page"].format(*at)
             caption = f"{page}   {caption}".strip()
         fault = (document.fault or self.fault).replace(os.getcwd() + os.sep, "")
         fault = f"{fault}\n{words['last']}" if fault else ""
@@ -226,6 +234,7 @@ class Viewer:
     def _on_drop(self, paths):
         for path in paths:
             self.document.drop(path, self.state.chosen)
+        self.presents = self.presents or bool(self.document.stop)
 
     def _on_other(self):
         """Only drawn again."""
@@ -240,8 +249,10 @@ class Viewer:
                 (document.redo if forward or key == glfw.KEY_Y else document.undo)()
         elif key == glfw.KEY_R:
             self._push(self.scene._replace(camera=document.home.camera))
-        elif key in (glfw.KEY_PAGE_DOWN, glfw.KEY_PAGE_UP):
-            document.turn(1 if key == glfw.KEY_PAGE_DOWN else -1)
+        elif key in _TURNS:
+            document.turn(_TURNS[key])
+        elif key == glfw.KEY_P:
+            self.presents = not self.presents
         elif key == glfw.KEY_F5:
             self.renderer.release()
             self.renderer = Renderer(self.desktop.context)

@@ -1,0 +1,193 @@
+"""A lesson in the real window: the question before the answer, large, with its sliders alone."""
+
+import pytest
+from hand import Spy
+from test_window import MIDDLE, drag, plain, press, save, screen, settle, shown
+
+from lumiar import labels, lesson, panel, presenter, sections, settings, widgets
+from lumiar.desktop import glfw
+from lumiar.window import Viewer
+
+SIZE = (900, 500)
+LESSON = """title = "Own"
+scene = "phong-blinn"
+set = { samples = 1 }
+[[step]]
+title = { en = "Gloss", pt = "Brilho" }
+caption = { en = "%s", pt = "Em palavras." }
+formula = 'I = k_s'
+plain = "I is ks"
+ask = { en = "Wider or narrower?", pt = "Mais largo?" }
+reveal = { en = "Narrower.", pt = "Mais estreito." }
+sliders = ["shininess", "camera.azimuth", "model", "direction", "exposure"]
+compare = [
+    { caption = "ten", set = { shininess = 10 } },
+    { caption = "fifty", set = { shininess = 50 } },
+    { caption = "hundred", set = { shininess = 100 } },
+]
+[[step]]
+title = "Last"
+caption = "No question."
+sliders = ["camera.distance"]
+"""
+
+
+@pytest.fixture
+def viewer(tmp_path):
+    path = tmp_path / "own.toml"
+    path.write_text(LESSON % "In words.")
+    with Viewer(lesson.load(str(path)), "en", "own", str(path), True, SIZE) as one:
+        settle(one)
+        yield one
+
+
+@pytest.fixture
+def look(monkeypatch):
+    """Return a function that draws a window once more, and returns a Spy of its panel."""
+
+    def looked(one):
+        spy = Spy()
+        with monkeypatch.context() as patch:
+            for module in (panel, sections, widgets, labels, presenter):
+                patch.setattr(module, "imgui", spy)
+            one.due = 1
+            one.frame()
+        return spy
+
+    return looked
+
+
+def gloss(one):
+    return one.scene.objects[0].values["shininess"]
+
+
+def rows(spy):
+    """Return the keys of the values that have a row, in order."""
+    found = dict.fromkeys(path.split("/")[0] for path in spy.places if "/" in path)
+    return list(found)
+
+
+def test_the_question_stands_before_the_answer(viewer, look):
+    seen, pictures = [], []
+    for _ in range(5):
+        said = look(viewer).said
+        seen.append((gloss(viewer), "Wider or narrower?" in said, "Narrower." in said))
+        pictures.append(shown(viewer).tobytes())
+        press(viewer, glfw.KEY_PAGE_DOWN)
+    assert seen[:3] == [(10, True, False), (50, True, False), (100, False, True)]
+    assert seen[3] == seen[4] and not any(seen[3][1:])  # after the last one there is none
+    assert len(set(pictures)) == 4
+    for key in (glfw.KEY_LEFT, glfw.KEY_LEFT, glfw.KEY_RIGHT, glfw.KEY_PAGE_UP, glfw.KEY_PAGE_UP):
+        press(viewer, key)
+    assert shown(viewer).tobytes() == pictures[0]
+
+
+def test_the_panel_has_the_sliders_of_the_step_alone(viewer, look):
+    wanted = ["shininess", "camera.azimuth", "model", "direction", "exposure"]
+    assert rows(look(viewer)) == wanted
+    before = viewer.state.width
+    press(viewer, glfw.KEY_P)
+    spy = look(viewer)
+    assert any("camera" in path for path in spy.places)
+    assert "Wider or narrower?" not in spy.said and len(rows(spy)) > 5
+    assert viewer.state.width != before
+    press(viewer, glfw.KEY_P)
+    assert rows(look(viewer)) == wanted
+
+
+def test_a_slider_acts_on_the_shot_and_a_step_begins_anew(viewer, look):
+    picture, first = shown(viewer), viewer.scene
+    left, top, right, bottom = look(viewer).places["shininess/shininess/##value"]
+    middle = (top + bottom) / 2.0
+    drag(viewer, (left + 0.5 * (right - left), middle), (left + 0.9 * (right - left), middle))
+    moved = gloss(viewer)
+    assert moved > 50 and (shown(viewer) != picture).any()
+    assert viewer.scene == settings.changed(first, "shininess", moved)
+    press(viewer, glfw.KEY_Z, glfw.MOD_CONTROL)
+    assert viewer.scene == first and (shown(viewer) == picture).all()
+    press(viewer, glfw.KEY_Z, glfw.MOD_CONTROL | glfw.MOD_SHIFT)
+    assert gloss(viewer) == moved
+    press(viewer, glfw.KEY_PAGE_DOWN)
+    press(viewer, glfw.KEY_Z, glfw.MOD_CONTROL)
+    assert gloss(viewer) == 50  # no way back into another shot
+    press(viewer, glfw.KEY_PAGE_UP)
+    assert viewer.scene == first
+
+
+def test_the_language_is_changed_in_the_panel(viewer, look):
+    spy = look(viewer)
+    left, top, right, bottom = spy.places["pt"]
+    assert {"Gloss", "In words.", "Predict first"} <= {*spy.said}
+    drag(viewer, ((left + right) / 2, (top + bottom) / 2), ((left + right) / 2, (top + bottom) / 2))
+    assert {"Brilho", "Em palavras.", "Preveja antes", "Mais largo?"} <= {*look(viewer).said}
+
+
+def test_a_formula_is_a_picture_and_words_where_none_can_be_made(viewer, look, monkeypatch):
+    assert viewer.presenter._drawn and "I is ks" not in look(viewer).said
+    before = screen(viewer)
+
+    def refuse(*_):
+        raise ImportError("no matplotlib")
+
+    monkeypatch.setattr("lumiar.plots.formula", refuse)
+    viewer.presenter._formula = None
+    settle(viewer)
+    assert "I is ks" in look(viewer).said and (screen(viewer) != before).any()
+
+
+def test_letters_are_large_and_smaller_where_there_is_more_to_say(viewer, tmp_path):
+    width = viewer.state.width
+    assert viewer.presenter._share == 1.0 and width >= 23 * SIZE[1] / presenter.LINES - 1
+    (tmp_path / "long.toml").write_text(LESSON % ("many words " * 32))
+    viewer.desktop.events.append(("drop", [str(tmp_path / "long.toml")]))
+    settle(viewer)
+    assert not viewer.document.fault and viewer.document.name == "long"
+    assert presenter.SMALLEST * 0.9 < viewer.presenter._share < 1.0
+
+
+def test_any_scene_may_be_presented(look):
+    with Viewer(plain(), "en", hidden=True, size=SIZE) as viewer:
+        settle(viewer)
+        narrow, picture = viewer.state.width, shown(viewer)
+        press(viewer, glfw.KEY_P)
+        spy = look(viewer)
+        model = viewer.scene.objects[0].model
+        names = [path.split("/")[1] for path in spy.places if "/" in path]
+        assert list(dict.fromkeys(names)) == [p.name for p in model.parameters]
+        assert rows(spy) == [model.name] and viewer.state.width != narrow
+        drag(viewer, MIDDLE, (600, 230))
+        press(viewer, glfw.KEY_P)
+        press(viewer, glfw.KEY_R)
+        assert (shown(viewer) == picture).all()
+
+
+def test_a_saved_lesson_is_read_again_and_a_broken_one_leaves_the_last(viewer, look, tmp_path):
+    press(viewer, glfw.KEY_PAGE_DOWN)
+    path = tmp_path / "own.toml"
+    save(viewer, path, LESSON % "In other words.")
+    assert gloss(viewer) == 50 and "In other words." in look(viewer).said
+    save(viewer, path, LESSON.replace("sliders = [", "slider = [") % "Broken.")
+    assert f"{path}:" in viewer.document.fault and "In other words." in look(viewer).said
+
+
+def test_every_stop_of_the_shipped_lessons_can_be_shown(look):
+    for name in lesson.shipped():
+        with Viewer(lesson.load(name), "pt", name, "", True, (320, 240)) as viewer:
+            for stop in viewer.document.stops:
+                spy = look(viewer)
+                assert [key for key in rows(spy) if key in stop.step.sliders] == [
+                    *stop.step.sliders
+                ]
+                assert not viewer.fault and not viewer.state.message
+                viewer.document.turn(1)
+
+
+def test_what_a_lesson_is(tmp_path, lumiar):
+    (tmp_path / "one.toml").write_text("samples = 1\n")
+    (tmp_path / "two.toml").write_text('title = "x"\n[[step]]\ntitle =')
+    assert lesson.is_lesson("phong") and lesson.is_lesson("two.toml", str(tmp_path))
+    for name in ("phong-blinn", "one.toml", "none.toml", "two.png", ""):
+        assert not lesson.is_lesson(name, str(tmp_path))
+    said = lumiar("view", "phong", "--model", "blinn", code=2).stderr
+    assert "--model: phong is a lesson" in said
+    assert "two.toml:3: " in lumiar("view", "two.toml", code=2).stderr
