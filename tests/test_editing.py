@@ -57,12 +57,17 @@ def test_the_range_of_a_slider_follows_the_unit():
     assert other.high == pytest.approx(500.0 * 176.80388, rel=0.05)
 
 
-def test_what_has_no_brightness_takes_another_unit_without_a_fault():
+def test_what_has_no_brightness_takes_another_unit_or_is_told_why_not():
     for spec in ("point:color=0,0,0", "disk:radius=0", "spot:inner=0:outer=0"):
         for unit in ("lm", "cd", "cd/m^2"):
             scene = lit(spec)
             if unit in settings.own_keys(scene.lights[0].kind)["unit"].split(", "):
-                assert editing.with_unit(scene, 0, unit).lights[0].unit == unit
+                dark = spec.startswith("point") or unit == "lm"
+                if dark:
+                    with pytest.raises(Mistake, match=r"brighten its color|make it larger"):
+                        editing.with_unit(scene, 0, unit)
+                else:
+                    assert editing.with_unit(scene, 0, unit).lights[0].unit == unit
 
 
 def test_a_unit_that_a_kind_has_not_is_refused():

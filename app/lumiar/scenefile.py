@@ -232,19 +232,18 @@ def _light(file, index, data):
     _check_keys(data, [*catalog.OWN_KEYS["light"], *kind.defaults()], where)
     if "temperature" in data and "illuminant" in data:
         raise Mistake(f"{where('illuminant')}a temperature and an illuminant; leave one out")
-    named = kind.tinted.name if kind.tinted else "kind"  # which may have brought the unit along
-    if kind.tinted and "unit" in data and isinstance(data.get(named), str):
-        raise Mistake(f"{where('unit')}{named} has a unit of its own; leave one out")
+    tinted = kind.tinted.name if kind.tinted else ""  # which may bring a unit along: "800 lm"
+    if "unit" in data and isinstance(data.get(tinted), str):
+        raise Mistake(f"{where('unit')}{tinted} has a unit of its own; leave one out")
     one = Light(kind, kind.defaults(), names["name"])
     for key, value in data.items():
         if key == "image":
             confine(str(value), key, file.folder, file.content, where(key))
-        tinted = kind.tinted and key == kind.tinted.name and isinstance(value, str)  # "800 lm"
-        if key in (*LIGHT, *LIGHT_TEXTS) or tinted:
+        if key in (*LIGHT, *LIGHT_TEXTS) or (key == tinted and isinstance(value, str)):
             one = settings.light_with(one, key, value, where(key), file.folder)
         elif key not in names:
             one = one._replace(values={**one.values, key: _given(kind, key, value, where(key))})
-    return settings.checked(one, lambda key: where(key if key in data else named))
+    return settings.checked(one, lambda key: where(key if key in data else tinted or "kind"))
 
 
 def _own(one, written):
