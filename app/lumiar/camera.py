@@ -69,12 +69,12 @@ def mirrors(m):
 def look_at(eye, target, up):
     """Return the matrix from the world to the eye's own axes: x right, y up, looking along -z."""
     z = _unit(_minus(eye, target))
-    x = _cross(up, z)
-    if _dot(x, x) < 1e-12 * _dot(up, up):  # looking along `up`: any other direction may be up
-        x = _cross((0.0, 0.0, -1.0) if abs(z[2]) < 0.9 else (0.0, 1.0, 0.0), z)
+    x = cross(up, z)
+    if dot(x, x) < 1e-12 * dot(up, up):  # looking along `up`: any other direction may be up
+        x = cross((0.0, 0.0, -1.0) if abs(z[2]) < 0.9 else (0.0, 1.0, 0.0), z)
     x = _unit(x)
-    y = _cross(z, x)
-    rows = ((*axis, -_dot(axis, eye)) for axis in (x, y, z))
+    y = cross(z, x)
+    rows = ((*axis, -dot(axis, eye)) for axis in (x, y, z))
     return (*(value for row in rows for value in row), 0.0, 0.0, 0.0, 1.0)
 
 
@@ -120,7 +120,7 @@ def clip_planes(eye, target, spheres):
     never below 1e-6 of far, where 24 bits of depth tell nothing apart.
     """
     ahead = _unit(_minus(target, eye))
-    depths = [(_dot(_minus(centre, eye), ahead), 1.01 * radius) for centre, radius in spheres]
+    depths = [(dot(_minus(centre, eye), ahead), 1.01 * radius) for centre, radius in spheres]
     depths = [(depth, radius) for depth, radius in depths if depth > -radius]  # not behind the eye
     distance = math.dist(eye, target)
     far = max((depth + radius for depth, radius in depths), default=2.0 * distance)
@@ -135,11 +135,13 @@ def _minus(a, b):
     return tuple(p - q for p, q in zip(a, b, strict=True))
 
 
-def _dot(a, b):
+def dot(a, b):
+    """Return the scalar product of two vectors."""
     return sum(p * q for p, q in zip(a, b, strict=True))
 
 
-def _cross(a, b):
+def cross(a, b):
+    """Return the vector product of two vectors of three numbers."""
     return (
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],

@@ -44,7 +44,8 @@ def surface(
             kinds["arriving"].append(f"arriving_{i}")
         if "light" not in light.defines:
             continue
-        kinds["toward"] += [f"light_{i}"][: shows == "toward" and not kinds["toward"]]
+        if shows == "toward" and not kinds["toward"]:  # the first light only
+            kinds["toward"].append(f"light_{i}")
         if light.sampled or i in shadows:
             word = "rig_lit" if light.sampled else "rig_aimed"
             kinds[word].append(f"{word}_{i}")

@@ -5,9 +5,8 @@ import os
 
 import numpy as np
 
-from . import captions, files, image, legend, picture, scale, scenefile, settings, sheet, views
+from . import captions, files, image, legend, picture, scale, scenefile, sheet, views
 from .errors import Mistake
-from .scene import Scene
 
 TITLE = 240  # letters of what an error's title says at most
 
@@ -43,13 +42,10 @@ def _panels(scene):
     """Yield (scene, caption) of each picture of a scene."""
     if not scene.panels:
         yield scene, ""
-    for i, panel in enumerate(scene.panels, 1):
-        one = Scene.load(panel.scene) if panel.scene else scene._replace(panels=(), title={})
-        one = settings.all_changed(one, panel.values, f"panel {i}: ")
+    for panel, one, caption in picture.panels(scene, scene.lang):
         if one.panels:
             raise Mistake(f"{panel.scene}: a sheet within a sheet has no view; draw it alone")
-        words = picture.in_language(panel.caption, scene.lang)
-        yield one, words or picture.in_language(one.title, scene.lang)
+        yield one, caption
 
 
 def _page(scene, view, cells):

@@ -7,7 +7,7 @@ follows it, whatever the scale of the scene; at the poles the eye stops short of
 
 import math
 
-from .camera import look_at
+from .camera import cross, dot, look_at
 from .parts import CAMERA
 
 POLE = math.radians(89.9)  # highest elevation: at 90 degrees the way up would flip
@@ -19,9 +19,9 @@ def orbit(camera, eye, target, dx, dy):
     """Return the camera turned about its target, as if the scene were dragged."""
     up = _scaled(camera.up, 1.0 / math.hypot(*camera.up))
     right, _, back = _axes(camera, eye, target)
-    elevation = math.asin(max(-1.0, min(1.0, _dot(back, up)))) + TURN * dy
+    elevation = math.asin(max(-1.0, min(1.0, dot(back, up)))) + TURN * dy
     elevation = max(-POLE, min(POLE, elevation))
-    away = _cross(_turned(right, up, -TURN * dx), up)
+    away = cross(_turned(right, up, -TURN * dx), up)
     if camera.position is None and up == (0.0, 1.0, 0.0):
         azimuth = math.degrees(math.atan2(away[0], away[2]))
         return camera._replace(azimuth=azimuth, elevation=math.degrees(elevation))
@@ -88,8 +88,8 @@ def _axes(camera, eye, target):
 
 def _turned(a, axis, angle):
     """Return a vector turned about an axis of length 1 (O. Rodrigues, 1840)."""
-    along = _scaled(axis, _dot(axis, a) * (1.0 - math.cos(angle)))
-    across = _scaled(_cross(axis, a), math.sin(angle))
+    along = _scaled(axis, dot(axis, a) * (1.0 - math.cos(angle)))
+    across = _scaled(cross(axis, a), math.sin(angle))
     return _plus(_plus(_scaled(a, math.cos(angle)), across), along)
 
 
@@ -99,15 +99,3 @@ def _scaled(a, factor):
 
 def _plus(a, b):
     return tuple(p + q for p, q in zip(a, b, strict=True))
-
-
-def _dot(a, b):
-    return sum(p * q for p, q in zip(a, b, strict=True))
-
-
-def _cross(a, b):
-    return (
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    )

@@ -97,6 +97,17 @@ def in_language(words, lang):
     return words.get(lang) or words.get("en") or next(iter(words.values()), "")
 
 
+def panels(scene, lang):
+    """Yield (Panel, Scene, caption) of each picture of a sheet; a caption left out is the title."""
+    for number, panel in enumerate(scene.panels, 1):
+        one = Scene.load(panel.scene) if panel.scene else scene._replace(panels=(), title={})
+        one = settings.all_changed(one, panel.values, f"panel {number}: ")
+        caption = in_language(panel.caption, lang)
+        if not caption and not one.panels:
+            caption = in_language(one.title, lang)
+        yield panel, one, caption
+
+
 def _half(progress, start):
     """Return what tells `progress` of one half of the work, from a share of `start` on."""
     return progress and (lambda share: progress(start + 0.5 * share))
@@ -123,20 +134,15 @@ def _counted(scene, renderer, faults, progress, linear=False):
 def _sheet(scene, renderer, lang, progress, depth=1):
     """Return (size, pixels, broken pixels) of a scene with panels."""
     cells, broken = [], 0
-    for i, panel in enumerate(scene.panels):
-        one = Scene.load(panel.scene) if panel.scene else scene._replace(panels=(), title={})
-        one = settings.all_changed(one, panel.values, f"panel {i + 1}: ")
+    for number, (panel, one, caption) in enumerate(panels(scene, lang), 1):
         if one.panels and depth == DEPTH:
             raise Mistake(f"{panel.scene}: sheets within sheets; allowed: {depth} levels")
         if one.panels:
             size, pixels, faults = _sheet(one, renderer, lang, None, depth + 1)
         else:
             size, pixels, faults = _drawn(one, renderer)
-        caption = in_language(panel.caption, lang)
-        if not caption and not one.panels:
-            caption = in_language(one.title, lang)
         cells.append((caption, size, pixels))
         broken += faults
         if progress:
-            progress((i + 1) / len(scene.panels))
+            progress(number / len(scene.panels))
     return *sheet.lay_out(in_language(scene.title, lang), cells, scene.columns), broken

@@ -209,7 +209,7 @@ class Renderer(OnCard):
 
         What is infinitely far away adds to what is there already, as in a mirror.
         """
-        surrounding, shapes, fixed = [], [], layout.of_lights(scene)
+        surrounding, shapes, fixed, view = [], [], layout.of_lights(scene), None
         for number, light in enumerate(scene.lights, 1):
             if not light.visible:
                 continue
@@ -218,7 +218,8 @@ class Renderer(OnCard):
                 sources = compose.backdrop(light.kind, number, fixed)
                 self._programs[key] = self._compile(sources)
                 self._screens[key] = self.context.vertex_array(self._programs[key], [])
-            values = layout.view(scene, placed) | layout.of_light(light, scene.time, number)
+            view = view or layout.view(scene, placed)
+            values = view | layout.of_light(light, scene.time, number)
             around = "environment" in light.kind.defines
             adds = bool(surrounding) if around else "reach" not in light.kind.defines
             flags = moderngl.NOTHING if around else moderngl.DEPTH_TEST
