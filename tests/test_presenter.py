@@ -178,7 +178,7 @@ def test_every_stop_of_the_shipped_lessons_can_be_shown(look):
                 assert [key for key in rows(spy) if key in stop.step.sliders] == [
                     *stop.step.sliders
                 ]
-                assert not viewer.fault and not viewer.state.message
+                assert not viewer.stage.fault and not viewer.state.message
                 viewer.document.turn(1)
 
 

@@ -42,7 +42,7 @@ def settle(one):
     one.due = max(one.due, 1)
     while one.due:
         one.frame()
-    if one.drawn[2]:  # a coarse picture, as while it moves
+    if one.stage.coarse:  # a coarse picture, as while it moves
         one.moved, one.due = 0.0, 1
         one.frame()
 
@@ -50,8 +50,8 @@ def settle(one):
 def shown(one):
     """Return the pixels of the picture, (height, width, 3)."""
     one.desktop.use()
-    size = one.canvas.size
-    return np.frombuffer(one.canvas.read(components=3), np.uint8).reshape(size[1], size[0], 3)
+    size = one.stage.canvas.size
+    return np.frombuffer(one.stage.canvas.read(components=3), np.uint8).reshape(size[1], size[0], 3)
 
 
 def screen(one):
@@ -119,21 +119,21 @@ def test_a_scene_of_several_passes_at_rest_is_what_capture_draws_too():
     assert layout.passes(scene) > 1
     with Viewer(scene, "en", hidden=True, size=(32, 24)) as viewer:
         press(viewer, glfw.KEY_H)
-        viewer.cost = 1.0  # as on a slow machine
+        viewer.stage.cost = 1.0  # as on a slow machine
         drag(viewer, (16, 12), (18, 13))
-        assert viewer.scene.camera != scene.camera and not viewer.drawn[2]
+        assert viewer.scene.camera != scene.camera and not viewer.stage.coarse
         assert (shown(viewer) == captured(hands.framed(viewer.scene, (32, 24)))).all()
 
 
 def test_a_slow_picture_is_coarse_only_while_it_moves(viewer):
     viewer._push(viewer.scene._replace(samples=16))
     settle(viewer)
-    fine, viewer.cost = shown(viewer), 1.0
+    fine, viewer.stage.cost = shown(viewer), 1.0
     viewer._push(viewer.scene._replace(exposure=0.001))
     viewer.frame()
-    assert viewer.drawn[2] and (shown(viewer) != fine).any()
+    assert viewer.stage.coarse and (shown(viewer) != fine).any()
     settle(viewer)
-    assert not viewer.drawn[2]
+    assert not viewer.stage.coarse
 
 
 def test_an_idle_window_draws_nothing(viewer):
@@ -203,7 +203,7 @@ def test_a_window_without_size_waits(viewer):
     viewer.desktop.button(0, glfw.RELEASE, 0)
     glfw.restore_window(viewer.desktop.window)
     settle(viewer)
-    assert viewer.canvas.size == viewer._area()[1]
+    assert viewer.stage.canvas.size == viewer._area()[1]
 
 
 def test_any_size_is_drawn(viewer):
@@ -225,10 +225,10 @@ def test_any_size_is_drawn(viewer):
 
 def test_hiding_the_panel_leaves_the_window_to_the_picture(viewer):
     press(viewer, glfw.KEY_H)
-    assert viewer.canvas.size == SIZE
+    assert viewer.stage.canvas.size == SIZE
     assert (screen(viewer)[:300] == shown(viewer)[:300]).all()
     press(viewer, glfw.KEY_H)
-    assert viewer.canvas.size != SIZE
+    assert viewer.stage.canvas.size != SIZE
 
 
 def test_full_screen_and_back(viewer):
@@ -305,14 +305,14 @@ def test_a_saved_shader_is_read_again_and_a_broken_one_leaves_the_last_picture(t
             ("// model   Own\nvec3 scatter(vec3 L", f"{path}:"),  # the contract tells
         ):
             save(viewer, path, broken)
-            assert said in viewer.document.fault + viewer.fault
+            assert said in viewer.document.fault + viewer.stage.fault
             assert (shown(viewer) == second).all()
         glfw.set_window_size(viewer.desktop.window, 700, 390)
         settle(viewer)
-        assert viewer.canvas.size == viewer._area()[1]  # the last good scene, in the new size
+        assert viewer.stage.canvas.size == viewer._area()[1]  # the last good scene, in the new size
         glfw.set_window_size(viewer.desktop.window, *SIZE)
         save(viewer, path, MODEL % "")
-        assert not viewer.document.fault + viewer.fault
+        assert not viewer.document.fault + viewer.stage.fault
         assert viewer.scene.objects[0].values["k"] == 0.9
         assert (shown(viewer) == first).all()
 
@@ -323,15 +323,18 @@ def test_many_saves_leave_nothing_behind(tmp_path):
     path.write_text(MODEL % "")
     with Viewer(plain().changed("model", str(path)), "en", hidden=True, size=SIZE) as viewer:
         settle(viewer)
-        kept = len(viewer.renderer._programs), len(viewer.renderer._stock.arrays)
+        kept = len(viewer.stage.renderer._programs), len(viewer.stage.renderer._stock.arrays)
         for i in range(40):
             path.write_text(MODEL % (" * nope" if i % 4 == 3 else f" * {i + 1}.0"))
             began = time.perf_counter()
             viewer._reload([str(path)])
             viewer.frame()
             times.append(time.perf_counter() - began)
-            assert bool(viewer.fault) == (i % 4 == 3)
-        assert (len(viewer.renderer._programs), len(viewer.renderer._stock.arrays)) == kept
+            assert bool(viewer.stage.fault) == (i % 4 == 3)
+        assert (
+            len(viewer.stage.renderer._programs),
+            len(viewer.stage.renderer._stock.arrays),
+        ) == kept
     assert sorted(times)[20] < 1.0  # 0.04 s where nothing else runs
 
 

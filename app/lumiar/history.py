@@ -20,6 +20,11 @@ class History:
         """The scene that is."""
         return self._scene
 
+    @property
+    def able(self):
+        """Which of "undo" and "redo" would do something."""
+        return ("undo",) * bool(self._past) + ("redo",) * bool(self._future)
+
     def push(self, scene, key=None):
         """Make `scene` the one that is, forget what was undone, and return it."""
         if scene != self._scene:

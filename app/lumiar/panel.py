@@ -24,6 +24,9 @@ class State:
     view      (eye, target) of the picture as it is, at which values that were left out begin
     width     of the panel, in pixels of the screen
     restless  whether it has to be drawn once more, until all has its size
+    tools     the names of those that the window has, and tool the open one
+    wish      what a button asks the window for: "undo", "redo", or one of the tools
+    able      which of undo and redo would do something
     """
 
     lang: str = ""
@@ -34,6 +37,10 @@ class State:
     width: float = 0.0
     holds: int = 0
     restless: bool = False
+    tools: tuple = ()
+    tool: str = ""
+    wish: str = ""
+    able: tuple = ()
 
 
 def prepare(size=16.0):
@@ -75,6 +82,8 @@ def draw(scene, state, parts=ALL):
     )
     state.width = imgui.get_window_width()
     _top(state, words)
+    if parts is ALL:
+        _bar(state, words)
     for section in parts:
         scene = section(scene, state, words)
     imgui.end()
@@ -97,3 +106,27 @@ def _top(state, words):
         imgui.pop_text_wrap_pos()
         if imgui.small_button(words["close"]):
             state.message = ""
+
+
+def _bar(state, words):
+    """Draw the buttons that open a tool, and those that go back and forth."""
+    em, right = imgui.get_font_size(), imgui.get_content_region_avail().x
+    for name, sign in (("undo", "↶"), ("redo", "↷")):
+        imgui.begin_disabled(name not in state.able)
+        if imgui.button(f"{sign}##{name}", (2.0 * em, 0.0)):
+            state.wish = name
+        imgui.end_disabled()
+        imgui.set_item_tooltip(words[name])
+        imgui.same_line()
+    padding, gap = 2.0 * imgui.get_style().frame_padding.x, imgui.get_style().item_spacing.x
+    for name in state.tools:
+        said = words["tools"][name]
+        if imgui.get_cursor_pos_x() + imgui.calc_text_size(said).x + padding > right:
+            imgui.new_line()
+        color = imgui.Col_.button if name == state.tool else imgui.Col_.frame_bg
+        imgui.push_style_color(imgui.Col_.button, imgui.get_style().color_(color))
+        if imgui.button(f"{said}##{name}"):
+            state.wish = name
+        imgui.pop_style_color()
+        imgui.same_line(0.0, gap)
+    imgui.new_line()

@@ -1,28 +1,27 @@
 """The window: input → next Scene, its picture, the panel on it; drawn only when something moved."""
 
-import contextlib
 import itertools
 import os
 import time
 
 from imgui_bundle import imgui
 
-from . import banner, hands, opening, panel, picture, presenter
+from . import banner, hands, opening, panel, picture, presenter, words
 from .desktop import LETTERS, Desktop, glfw
 from .document import Document
+from .drawer import TOOLS, Drawer, Now
 from .errors import Mistake, one_line
 from .overlay import Overlay
 from .phrases import TEXT
-from .renderer import Renderer
+from .stage import REST, Stage
 
 SIZE = (1280, 800)
 IDLE = 0.15  # seconds between two looks at the files
 FRAMES = 3  # that imgui takes to settle after an event
 LINGER = 0.7  # seconds after which a tooltip has come up
 NOTICE = 4.0  # seconds that a message of something done stays
-PROMPT = 0.04  # seconds that a picture may take while it moves
-REST = 0.2  # seconds without a change before one that takes longer is drawn in full
 KEEP = 2.0  # seconds between two times that the scene is put by
+_TOOL_KEYS = {getattr(glfw, f"KEY_{key}"): name for name, key in TOOLS.items()}
 _TURNS = {glfw.KEY_PAGE_DOWN: 1, glfw.KEY_RIGHT: 1, glfw.KEY_PAGE_UP: -1, glfw.KEY_LEFT: -1}
 
 
@@ -36,15 +35,15 @@ class Viewer:
         self.document = Document(scene, name, path)
         self.desktop = Desktop(size, "Lumiar", hidden)
         context = self.desktop.context
-        self.renderer, self.overlay, self.canvas = Renderer(context), Overlay(context), None
+        self.stage, self.overlay, self.drawer = Stage(context), Overlay(context), Drawer()
         panel.prepare(LETTERS * self.desktop.scale)
         imgui.get_style().scale_all_sizes(self.desktop.scale)
-        self.state, self.hands = panel.State(lang=lang), hands.Hands()
+        self.state, self.hands = panel.State(lang=lang, tools=tuple(TOOLS)), hands.Hands()
         self.presenter = presenter.Presenter(self.overlay)
         self.presents = bool(self.document.stop)
-        self.good, self.drawn, self.view = None, None, None
         self.fault, self.notice, self.titled = "", ("", 0.0), ""
-        self.cost = self.moved = self.awake = 0.0
+        self.moved = self.awake = 0.0
+        self.picked, self._pressed, self._place = None, None, (0.0, 0.0)
         self.with_panel, self.with_keys, self.due = True, False, FRAMES
         self.kept, self.kept_at = None, time.monotonic()
 
@@ -59,9 +58,9 @@ class Viewer:
         if self.desktop.window:
             self._keep()
             self.desktop.use()
-            self._drop_canvas()
+            self.drawer.release()
+            self.stage.release()
             self.overlay.release()
-            self.renderer.release()
             self.desktop.release()
 
     @property
@@ -96,25 +95,28 @@ class Viewer:
         return True
 
     def _lingers(self, now):
-        coarse = self.drawn and self.drawn[2]
-        return now < self.awake or now < self.notice[1] or coarse
+        return now < self.awake or now < self.notice[1] or self.stage.coarse
 
     def _frame(self, now):
         desktop = self.desktop
         high = glfw.get_window_size(desktop.window)[1] if self.presents else 0
         imgui.get_style().font_size_base = max(high / presenter.LINES, LETTERS * desktop.scale)
         desktop.begin()
+        self.state.restless = False
         if self.with_panel:
-            self.state.view, self.state.restless = self.view, False
+            self.state.view, self.state.tool = self.stage.view, self.drawer.open
+            self.state.able = self.document.history.able
             parts = self.presenter.parts(self.document.stop) if self.presents else panel.ALL
             self._push(panel.draw(self.scene, self.state, parts), self.state.gesture)
-            self.due = max(self.due, 2 * self.state.restless)
+            self._wish()
+        self._push(self.drawer.draw(self._now(now)), self.state.gesture)
+        self.due = max(self.due, 2 * self.state.restless)
         left, size = self._area()
-        self._draw(size, now)
+        self.stage.draw(self.scene, size, now - self.moved)
         self._say_over(left, size, now)
         imgui.render()
         screen = desktop.context.screen
-        self.overlay.picture(self.canvas.color_attachments[0], screen, left)
+        self.overlay.picture(self.stage.canvas.color_attachments[0], screen, left)
         self.overlay.widgets(imgui.get_draw_data(), screen, desktop.size)
         desktop.show()
         title = f"{self.document.name} · Lumiar".removeprefix(" · ")
@@ -125,60 +127,27 @@ class Viewer:
     def _area(self):
         """Return (left, (width, height)) in pixels of where the picture goes."""
         width, height = self.desktop.size
-        left = round(self.state.width * width / imgui.get_io().display_size.x)
-        left = min(left, width - 1) if self.with_panel else 0
-        return left, (width - left, height)
+        fine = width / imgui.get_io().display_size.x
+        right = width - round(self.drawer.width * fine)
+        left = round(self.state.width * fine) if self.with_panel else 0
+        left = min(left, width - 1)
+        return left, (max(1, right - left), height)
 
-    def _draw(self, size, now):
-        """Bring the picture up to date; where that cannot be, the last good scene stays.
+    def _now(self, now):
+        """Return what the tools are told."""
+        stage, state = self.stage, self.state
+        fault = self.document.fault or stage.fault
+        return Now(
+            *(self.scene, stage.shown, stage.view, self.picked, fault, now - self.moved > REST),
+            *(state, words.TEXT[state.lang], stage, self.overlay, self.document),
+        )
 
-        A picture that takes long has one sample per pixel while it moves, all of them at rest.
-        """
-        coarse = self.cost > PROMPT and now - self.moved < REST
-        if self.drawn in ((self.scene, size, False), (self.scene, size, coarse)):
-            return
-        began = time.perf_counter()
-        try:
-            shown = self._show(self.scene, size, coarse)
-        except Mistake as mistake:
-            self.fault = one_line(mistake)
-            if self.good is None:
-                raise
-            with contextlib.suppress(Mistake):  # larger than any picture can be
-                shown = self._show(self.good, size, coarse)
-                self.view = self.renderer.viewpoint(shown)
-        else:
-            self._forget_edited()
-            self.good, self.fault = self.scene, ""
-            self.view = self.renderer.viewpoint(shown)
-        self.desktop.context.finish()
-        self.cost = self.cost if coarse else time.perf_counter() - began
-        self.drawn = (self.scene, size, coarse)
-
-    def _forget_edited(self):
-        """Free what was compiled from files as they were before their last good save."""
-        texts = {shader.path: shader.text for shader in opening.shaders(self.scene)}
-        for old in opening.shaders(self.good) if self.good else ():
-            if texts.get(old.path, old.text) != old.text:
-                self.renderer.forget(old.text)
-
-    def _show(self, scene, size, coarse):
-        """Draw a scene into the canvas; return it as drawn."""
-        context, shown = self.desktop.context, hands.framed(scene, size)
-        if coarse:
-            shown = shown._replace(samples=1)
-        if self.canvas is None or self.canvas.size != size:
-            self._drop_canvas()
-            self.canvas = context.framebuffer([context.texture(size, 4)])
-        self.renderer.show(shown, self.canvas)
-        return shown
-
-    def _drop_canvas(self):
-        if self.canvas:
-            self.desktop.context.screen.use()
-            self.canvas.color_attachments[0].release()
-            self.canvas.release()
-            self.canvas = None
+    def _wish(self):
+        """Do what a button of the panel asks for."""
+        wish, self.state.wish = self.state.wish, ""
+        if wish:
+            self.drawer.toggle(wish) if wish in TOOLS else getattr(self.document, wish)()
+            self.due = FRAMES
 
     def _say_over(self, left, size, now):
         """Say over the picture what has to be said."""
@@ -196,24 +165,31 @@ class Viewer:
         done = self.notice[0] if now < self.notice[1] and not fault else ""
         points = imgui.get_io().display_size.x / self.desktop.size[0]
         area = (left * points, size[0] * points, size[1] * points)
-        banner.draw(area, f"{1000.0 * self.cost:.1f} ms", caption, fault, done)
+        banner.draw(area, f"{1000.0 * self.stage.cost:.1f} ms", caption, fault, done)
         if self.with_keys:
             banner.keys(area, words["keys"])
 
     def _push(self, scene, key=None):
         if scene is not self.scene:
             self.document.push(scene, key)
+            self.fault = ""
             self.due, self.moved = FRAMES, time.monotonic()
 
     def _on_press(self, button, held):
         if not self.desktop.io.want_capture_mouse:
             self.hands.press(button, held)
+            plain = button == glfw.MOUSE_BUTTON_LEFT and not held
+            self._pressed = self._place if plain else None
 
     def _on_release(self, _):
         self.hands.release()
+        if self._pressed and self._pressed == self._place:
+            self.picked = (self._place[0] - self._area()[0], self._place[1])
+        self._pressed = None
         self.document.history.push(self.document.history.scene)  # ends the step
 
     def _on_move(self, place):
+        self._place = place
         looks = self._looks() if self.hands.holds and 0 not in self.desktop.size else (None, None)
         self._push(*self.hands.move(self.scene, *looks, place))
 
@@ -222,14 +198,8 @@ class Viewer:
             self._push(*self.hands.wheel(self.scene, *self._looks(), notches))
 
     def _looks(self):
-        """Return the scene, or the last one that could be drawn, as framed, and its viewpoint."""
-        size = self._area()[1]
-        for scene in (self.scene, self.good):
-            try:
-                shown = hands.framed(scene, size)
-                return shown, self.renderer.viewpoint(shown)
-            except Mistake:
-                continue
+        """Return the scene as framed, or the last one that could be drawn, and its viewpoint."""
+        return self.stage.looks(self.scene, self._area()[1])
 
     def _on_drop(self, paths):
         for path in paths:
@@ -253,9 +223,10 @@ class Viewer:
             document.turn(_TURNS[key])
         elif key == glfw.KEY_P:
             self.presents = not self.presents
+        elif key in _TOOL_KEYS:
+            self.drawer.toggle(_TOOL_KEYS[key])
         elif key == glfw.KEY_F5:
-            self.renderer.release()
-            self.renderer = Renderer(self.desktop.context)
+            self.stage.restart()
             self._reload(None)
         elif key == glfw.KEY_F12:
             self._screenshot()
@@ -270,7 +241,8 @@ class Viewer:
 
     def _reload(self, paths):
         names = self.document.reload(paths)
-        self.due, self.drawn = FRAMES, None
+        self.due = FRAMES
+        self.stage.stale()
         if names:
             self._tell("reloaded", ", ".join(names))
 
@@ -278,10 +250,11 @@ class Viewer:
         paths = (f"lumiar-{i:03}.png" for i in itertools.count(1))
         path = next(path for path in paths if not os.path.exists(path))
         try:
-            picture.write(hands.framed(self.good, self._area()[1]), path, self.renderer)
+            picture.write(self.stage.shown, path, self.stage.renderer)
         except (Mistake, OSError) as error:
             self.fault = one_line(error)
         else:
+            self.fault = ""
             self._tell("saved", path)
 
     def _tell(self, word, what):
@@ -289,6 +262,7 @@ class Viewer:
         self.notice = (text, time.monotonic() + NOTICE)
 
     def _keep(self):
-        if self.kept is not self.good and self.good is not None:
-            opening.keep(self.good)
-            self.kept, self.kept_at = self.good, time.monotonic()
+        good = self.stage.good
+        if self.kept is not good and good is not None:
+            opening.keep(good)
+            self.kept, self.kept_at = good, time.monotonic()

@@ -1,0 +1,91 @@
+"""The tools at the right of the picture: one is open at a time, made when it is first asked for."""
+
+from typing import NamedTuple
+
+from imgui_bundle import imgui
+
+from .words import TEXT
+
+TOOLS = {}  # {name: its key}, in the order of their buttons
+WIDE, NARROWEST = 0.34, 18.0  # share of the window, and the least in sizes of letters
+
+
+class Now(NamedTuple):
+    """What a tool is told in every frame.
+
+    scene    as edited; what `draw` returns takes its place
+    shown    the last one that could be drawn, as framed for the picture; view its (eye, target)
+    picked   pixel (x, y) of the picture that was clicked, or None
+    fault    the line of what is wrong, while something is
+    rests    whether nothing has changed for a moment: the time for what takes long
+    state    panel.State; words: those of its language
+    stage    the picture, with its renderer and context; images: Overlay, see `image` there
+    document what is open, and its files
+    """
+
+    scene: object
+    shown: object
+    view: tuple
+    picked: tuple | None
+    fault: str
+    rests: bool
+    state: object
+    words: dict
+    stage: object
+    images: object
+    document: object
+
+
+class Drawer:
+    """The window of ImGui in which the open tool stands; release it.
+
+    A tool has `draw(now)`, which draws its widgets and returns the scene, and `release()`. It sets
+    now.state.restless where it has to be drawn once more, though nothing happens.
+    """
+
+    def __init__(self):
+        self._made, self.open, self.width = {}, "", 0.0
+
+    def release(self):
+        """Free what the tools have."""
+        for tool in self._made.values():
+            tool.release()
+        self._made.clear()
+
+    def toggle(self, name):
+        """Open a tool, or close it where it is the one that is open."""
+        self.open = "" if name == self.open else name
+
+    @property
+    def tool(self):
+        """The tool that is open, or None."""
+        return self._made.get(self.open)
+
+    def draw(self, now):
+        """Draw the open tool and return the scene as changed in it; without one do nothing."""
+        self.width = 0.0
+        if not self.open:
+            return now.scene
+        if self.open not in self._made:
+            self._made[self.open] = _made(self.open, now)
+        area, em = imgui.get_main_viewport(), imgui.get_font_size()
+        room, height = area.work_size
+        right = area.work_pos.x + room
+        imgui.set_next_window_pos((right, area.work_pos.y), 0, (1.0, 0.0))
+        imgui.set_next_window_size((max(NARROWEST * em, WIDE * room), height), imgui.Cond_.once)
+        most = max(NARROWEST * em, 0.7 * room)
+        imgui.set_next_window_size_constraints((NARROWEST * em, height), (most, height))
+        flags = imgui.WindowFlags_.no_move | imgui.WindowFlags_.no_collapse
+        title = f"{TEXT[now.state.lang]['tools'][self.open]}###{self.open}"
+        shown, stays = imgui.begin(title, True, flags | imgui.WindowFlags_.no_saved_settings)
+        scene = self.tool.draw(now) if shown else now.scene
+        self.width = imgui.get_window_width()
+        imgui.end()
+        if not stays:
+            self.open = ""
+        return scene
+
+
+def _made(name, now):
+    """Return a tool; what it needs is imported only here."""
+    raise ValueError(name)
