@@ -158,7 +158,7 @@ class Instrument(OnCard):
     def _prepared(self, model, values, what, repeats=0, strict=False):
         """Return the vertex array that evaluates a model with these values, compiled once."""
         constants = model.constants(values)
-        key = (model.text, what, strict, *constants.items())
+        key = (model.source, what, strict, *constants.items())
         if key not in self._programs:
             program = compiled(self.context, compose.measured(model, constants, what, strict))
             self._programs[key] = program, self.context.vertex_array(program, [])

@@ -88,10 +88,10 @@ class Stage:
 
     def _forget_edited(self, scene):
         """Free what was compiled from files as they were before their last good save."""
-        texts = {shader.path: shader.text for shader in opening.shaders(scene)}
+        sources = {shader.path: shader.source for shader in opening.shaders(scene)}
         for old in opening.shaders(self.good) if self.good else ():
-            if texts.get(old.path, old.text) != old.text:
-                self.renderer.forget(old.text)
+            if sources.get(old.path, old.source) != old.source:
+                self.renderer.forget(old.source)
 
     def _drop_canvas(self):
         if self.canvas:
