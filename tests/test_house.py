@@ -20,7 +20,7 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "formats shapes plots factor_table reference flatten daylight widgets desktop",
     "geometry compose parts materials hemisphere surroundings",
     "settings factor_card layout content variants navigate overlay",
-    "scenefile stock hands",
+    "scenefile stock hands targets",
     "scene editing",
     "renderer lesson sections opening",
     "picture options measure views report panel document",
