@@ -22,7 +22,7 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "settings factor_card layout content variants navigate overlay",
     "scenefile stock hands targets",
     "scene editing",
-    "renderer lesson sections opening",
+    "renderer lesson sections opening texts",
     "picture options measure views report panel document",
     "hostile measuring falsecolour reflectance deck presenter stage",
     "examine probe",

@@ -6,8 +6,9 @@ from imgui_bundle import imgui
 
 from .words import TEXT
 
-TOOLS = {}  # {name: its key}, in the order of their buttons
+TOOLS = {"editor": "F7"}  # {name: its key}, in the order of their buttons
 WIDE, NARROWEST = 0.34, 18.0  # share of the window, and the least in sizes of letters
+WIDER = {"editor": 0.42}  # share for what has long lines
 
 
 class Now(NamedTuple):
@@ -21,6 +22,7 @@ class Now(NamedTuple):
     state    panel.State; words: those of its language
     stage    the picture, with its renderer and context; images: Overlay, see `image` there
     document what is open, and its files
+    time     of this frame, in seconds
     """
 
     scene: object
@@ -34,6 +36,7 @@ class Now(NamedTuple):
     stage: object
     images: object
     document: object
+    time: float
 
 
 class Drawer:
@@ -72,7 +75,8 @@ class Drawer:
         room, height = area.work_size
         right = area.work_pos.x + room
         imgui.set_next_window_pos((right, area.work_pos.y), 0, (1.0, 0.0))
-        imgui.set_next_window_size((max(NARROWEST * em, WIDE * room), height), imgui.Cond_.once)
+        wide = max(NARROWEST * em, WIDER.get(self.open, WIDE) * room)
+        imgui.set_next_window_size((wide, height), imgui.Cond_.once)
         most = max(NARROWEST * em, 0.7 * room)
         imgui.set_next_window_size_constraints((NARROWEST * em, height), (most, height))
         flags = imgui.WindowFlags_.no_move | imgui.WindowFlags_.no_collapse
@@ -88,4 +92,8 @@ class Drawer:
 
 def _made(name, now):
     """Return a tool; what it needs is imported only here."""
+    if name == "editor":
+        from .editor import Editor
+
+        return Editor()
     raise ValueError(name)

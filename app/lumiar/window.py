@@ -32,7 +32,7 @@ class Viewer:
     """
 
     def __init__(self, scene, lang, name="", path="", hidden=False, size=SIZE):
-        self.document = Document(scene, name, path)
+        self.document = scene if isinstance(scene, Document) else Document(scene, name, path)
         self.desktop = Desktop(size, "Lumiar", hidden)
         context = self.desktop.context
         self.stage, self.overlay, self.drawer = Stage(context), Overlay(context), Drawer()
@@ -77,10 +77,10 @@ class Viewer:
     def frame(self, wait=0.0):
         """Take what came, for up to `wait` seconds; draw if anything moved; return whether."""
         events, now = self.desktop.take(wait), time.monotonic()
-        saved = self.document.watch.changed(now)
-        if events or saved or self.due or self._lingers(now):
+        saved, typed = self.document.watch.changed(now), self.document.look(now)
+        if events or saved or typed or self.due or self._lingers(now):
             self.desktop.use()
-        if events:
+        if events or typed:
             self.due, self.awake = FRAMES, now + LINGER
         for event, *how in events:
             getattr(self, f"_on_{event}")(*how)
@@ -140,6 +140,7 @@ class Viewer:
         return Now(
             *(self.scene, stage.shown, stage.view, self.picked, fault, now - self.moved > REST),
             *(state, words.TEXT[state.lang], stage, self.overlay, self.document),
+            now,
         )
 
     def _wish(self):
@@ -158,7 +159,7 @@ class Viewer:
         if at[1] > 1:
             page = words["page"].format(*at)
             caption = f"{page}   {caption}".strip()
-        fault = (document.fault or self.fault).replace(os.getcwd() + os.sep, "")
+        fault = (document.fault or self.stage.fault or self.fault).replace(os.getcwd() + os.sep, "")
         fault = f"{fault}\n{words['last']}" if fault else ""
         if not self.with_panel:
             fault = fault or self.state.message
@@ -211,7 +212,8 @@ class Viewer:
 
     def _on_key(self, key, held):
         io, popup = self.desktop.io, imgui.PopupFlags_.any_popup
-        if io.want_text_input or (key == glfw.KEY_ESCAPE and imgui.is_popup_open("", popup)):
+        typed = io.want_text_input and not glfw.KEY_F1 <= key <= glfw.KEY_F12
+        if typed or (key == glfw.KEY_ESCAPE and imgui.is_popup_open("", popup)):
             return
         document, forward = self.document, held & glfw.MOD_SHIFT
         if held & (glfw.MOD_CONTROL | glfw.MOD_SUPER):
@@ -262,6 +264,7 @@ class Viewer:
         self.notice = (text, time.monotonic() + NOTICE)
 
     def _keep(self):
+        self.document.texts.put_by()
         good = self.stage.good
         if self.kept is not good and good is not None:
             opening.keep(good)
