@@ -3,8 +3,8 @@
 import os
 import re
 
-from . import opening
 from . import lesson as lessons
+from . import opening
 from .errors import Mistake, one_line
 from .history import History
 from .scene import Scene
@@ -200,13 +200,11 @@ class Document:
             self.texts.faults.pop(self._waiting[-1], None)
         if not mistake:
             try:
-                scene = load()
+                self.open(load(), name, path)
+                self._waiting = None
+                return
             except Mistake as again:
                 mistake = again
-        if not mistake:
-            self._waiting = None
-            self.open(scene, name, path)
-            return
         file = _at_fault(mistake) or self._waiting[-1]
         self.texts.faults[file] = one_line(mistake)
         self._waiting = (load, name, path, file)

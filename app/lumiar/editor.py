@@ -4,16 +4,15 @@ import os
 import re
 
 from imgui_bundle import imgui
-from imgui_bundle import imgui_color_text_edit as ed
 
 from . import opening
+from .codearea import Code
 from .errors import Mistake, one_line
-from .files import ASSETS
+from .files import shortened
 from .phrases import TEXT
 from .settings import changed
 from .texts import ships, write_text
 
-FONT = os.path.join(ASSETS, "fonts", "DejaVuSansMono.ttf")
 NEW = """// model   {}
 #include "lib/constants.glsl"
 
@@ -25,7 +24,6 @@ vec3 scatter(vec3 L, vec3 V) {
 }
 """
 _RED, _DIM = (1.0, 0.55, 0.5, 1.0), (0.62, 0.66, 0.72, 1.0)
-_BAD = (imgui.IM_COL32(255, 90, 80, 255), imgui.IM_COL32(120, 30, 30, 150))
 _WHERE = re.compile(r"(.+?):(\d+): (.*)", re.DOTALL)
 
 
@@ -33,7 +31,7 @@ class Editor:
     """Texts of files, one of which is shown; see `drawer.Drawer` for what a tool is."""
 
     def __init__(self):
-        self.sheets, self.path, self._chosen, self._font = {}, "", "", None
+        self.sheets, self.path, self._chosen = {}, "", ""
         self._asked, self._name, self._refused = "", "", ""
 
     def release(self):
@@ -47,35 +45,38 @@ class Editor:
 
     def draw(self, now):
         """Draw the editor, and return the scene, changed where it uses a file just written."""
-        words, texts = TEXT[now.state.lang]["editor"], now.document.texts
-        scene = self._follow(now)
+        words, document = TEXT[now.state.lang]["editor"], now.document
+        self._follow(now)
         self._list(now, words)
-        scene = self._bar(now, scene, words)
-        self._notes(now.document, words)
+        made = self._bar(now, words)
+        self._notes(document, words)
         try:
-            text = texts.text(self.path)
+            text = document.texts.text(self.path)
         except Mistake as mistake:
-            self._say(str(mistake), _RED)
-            return scene
-        if self.path not in self.sheets:
-            self.sheets[self.path] = _Sheet(text, self.path.endswith(".glsl"))
-        sheet = self.sheets[self.path]
-        fault = texts.faults.get(self.path, now.fault)
-        sheet.mark(_at(fault, self.path))
-        typed = self._code(sheet, text, self._fixed(now))
+            self._say(shortened(str(mistake)), _RED)
+        else:
+            self._text(now, text, words)
+        return made or document.scene
+
+    def _text(self, now, text, words):
+        """Draw the text, and what is wrong below it; take what is typed."""
+        texts, path = now.document.texts, self.path
+        if path not in self.sheets:
+            self.sheets[path] = Code(text, path.endswith(".glsl"))
+        sheet, fault = self.sheets[path], texts.faults.get(path, now.fault)
+        sheet.mark(_at(fault, path))
+        room = imgui.get_content_region_avail().y - (4.4 * imgui.get_font_size() if fault else 0.0)
+        typed = sheet.draw(text, room, self._fixed(now))
         if typed is not None:
-            now.document.edit(self.path, typed, now.time)
+            now.document.edit(path, typed, now.time)
         self._foot(fault, words)
-        return scene
 
     def _follow(self, now):
-        """Go to the file of the model that is chosen, when another one is; return the scene."""
-        chosen = now.scene.objects[min(now.state.chosen, len(now.scene.objects) - 1)].model.path
-        files = self._files(now.document)
+        """Go to the file of the model that is chosen, when that is another one than before."""
+        files, chosen = self._files(now.document), _chosen(now.scene, now.state)
         if chosen != self._chosen or self.path not in files:
-            first = files[0] if now.document.awaits else chosen
+            first = files[0] if now.document.awaits or not chosen else chosen
             self.path, self._chosen, self._asked = first, chosen, ""
-        return now.scene
 
     def _files(self, document):
         shaders = opening.shaders(document.scene)
@@ -101,38 +102,32 @@ class Editor:
                         self.sheets[path].seeks = True
             imgui.end_combo()
 
-    def _bar(self, now, scene, words):
-        """Draw the buttons; return the scene, with a file in it that was just written."""
-        document, changed_here = now.document, self.path in now.document.texts.drafts
-        said = words["unsaved" if changed_here else "is saved"]
+    def _bar(self, now, words):
+        """Draw the buttons; return the scene with a file in it that was just written, or None."""
+        document, edited = now.document, self.path in now.document.texts.drafts
+        said, fixed = words["unsaved" if edited else "is saved"], self._fixed(now)
+        keyed = imgui.shortcut(imgui.Key.mod_ctrl | imgui.Key.s, imgui.InputFlags_.route_global)
         if ships(self.path):
-            said = words["fixed" if self._fixed(now) else "ships"]
+            said = words["fixed" if fixed else "ships"]
         else:
-            keyed = imgui.shortcut(
-                imgui.Key.mod_ctrl | imgui.Key.s, imgui.InputFlags_.route_global
-            )
-            if _button(words["save"], words["save tip"], changed_here) or keyed:
+            if _button(words["save"], words["save tip"], edited) or keyed:
                 self._save(now, words)
             imgui.same_line()
-        if self.path.endswith(".glsl") and not self._fixed(now):
-            if ships(self.path) and imgui.shortcut(
-                imgui.Key.mod_ctrl | imgui.Key.s, imgui.InputFlags_.route_global
-            ):
-                self._ask("copy")
-            if _button(words["copy"], words["copy tip"]):
-                self._ask("copy")
+        if self.path.endswith(".glsl") and not fixed:
+            if _button(words["copy"], words["copy tip"]) or (keyed and ships(self.path)):
+                self._ask("copy", words)
             imgui.same_line()
         if _button(words["new"], words["new tip"]):
-            self._ask("new")
+            self._ask("new", words)
         imgui.same_line()
-        if _button(words["revert"], words["revert tip"], changed_here):
+        if _button(words["revert"], words["revert tip"], edited):
             document.revert(self.path)
         self._say(said, _DIM)
-        return self._name_field(now, scene, words) if self._asked else scene
+        return self._name_field(now, words) if self._asked else None
 
-    def _ask(self, what):
+    def _ask(self, what, words):
         name = os.path.splitext(os.path.basename(self.path))[0] if what == "copy" else "model"
-        self._asked, self._name, self._refused = what, f"my_{name}.glsl", ""
+        self._asked, self._name, self._refused = what, words["own"].format(name), ""
 
     def _save(self, now, words):
         self._refused = ""
@@ -148,7 +143,8 @@ class Editor:
         """Have what was just typed in the scene at once."""
         now.document.look(now.time, at_once=True)
 
-    def _name_field(self, now, scene, words):
+    def _name_field(self, now, words):
+        """Draw the field for a name; return the scene with the file written, or None."""
         folder = os.path.basename(os.getcwd()) or os.getcwd()
         imgui.text(words["name"].format(f"{folder}{os.sep}"))
         imgui.set_next_item_width(-1.0)
@@ -159,12 +155,11 @@ class Editor:
         imgui.same_line()
         if _button(words["cancel"], "") or imgui.is_key_pressed(imgui.Key.escape):
             self._asked = ""
-        elif wanted:
-            scene = self._write(now, scene, words)
-        return scene
+            return None
+        return self._write(now, words) if wanted else None
 
-    def _write(self, now, scene, words):
-        """Write a copy or a new model; return the scene with it."""
+    def _write(self, now, words):
+        """Write a copy or a new model; return the scene with it, or None."""
         name = self._name.strip()
         name += "" if name.endswith(".glsl") else ".glsl"
         path = os.path.abspath(name)
@@ -176,24 +171,24 @@ class Editor:
         elif os.path.exists(path) and path != self.path:
             self._refused = words["named"].format(name)
         if self._refused:
-            return scene
+            return None
         self._settle(now)
-        document, copies = now.document, self._asked == "copy"
+        document = now.document
         try:
-            if copies:
+            if self._asked == "copy":
                 write_text(path, document.texts.text(self.path))
                 document.rename(self.path, path)
                 scene = document.scene
             else:
-                write_text(path, NEW.format(os.path.splitext(name)[0].replace("_", " ")))
-                key = f"object.{min(now.state.chosen, len(scene.objects) - 1) + 1}.model"
-                scene = changed(scene, key, path)
+                write_text(path, NEW.replace("{}", os.path.splitext(name)[0].replace("_", " "), 1))
+                number = min(now.state.chosen + 1, len(document.scene.objects))
+                scene = changed(document.scene, f"object.{number}.model", path)
         except (OSError, Mistake) as error:
             reason = one_line(getattr(error, "strerror", None) or error)
             self._refused = words["refused"].format(name, reason)
-            return scene
+            return None
         self._asked, self.path = "", path
-        self._chosen = scene.objects[min(now.state.chosen, len(scene.objects) - 1)].model.path
+        self._chosen = _chosen(scene, now.state)
         return scene
 
     def _notes(self, document, words):
@@ -216,29 +211,12 @@ class Editor:
             if _button(words["decline"], ""):
                 texts.decline(path)
 
-    def _code(self, sheet, text, fixed):
-        """Draw the text; return it as typed in this frame, or None."""
-        em = imgui.get_font_size()
-        if self._font is None:
-            self._font = imgui.get_io().fonts.add_font_from_file_ttf(FONT)
-        if text != sheet.text:
-            sheet.replace(text)
-        sheet.area.set_read_only_enabled(fixed)
-        imgui.push_font(self._font, 0.93 * em)
-        left = imgui.get_content_region_avail().y - 4.2 * em
-        typed = sheet.area.render("##code", (0.0, max(4.0 * em, left)))
-        imgui.pop_font()
-        if not typed:
-            return None
-        sheet.text, sheet.seeks = sheet.area.get_text(), False
-        return sheet.text
-
     def _foot(self, fault, words):
         """Say what is wrong, below the text; a click goes there."""
         if not fault:
             return
         found = _WHERE.match(fault)
-        self._say(fault.replace(os.getcwd() + os.sep, ""), _RED)
+        self._say(shortened(fault), _RED)
         if found and imgui.is_item_hovered():
             imgui.set_tooltip(words["go"])
         if found and imgui.is_item_clicked() and os.path.isfile(found.group(1)):
@@ -254,42 +232,10 @@ class Editor:
         imgui.pop_text_wrap_pos()
 
 
-class _Sheet:
-    """A file in ImGui's text editor, with its own undo, and the mark of what is wrong."""
-
-    def __init__(self, text, is_glsl):
-        self.area, self.text, self.seeks, self._marked = ed.TextEditor(), text, True, None
-        if is_glsl:
-            self.area.set_language(ed.TextEditor.Language.glsl())
-        self.area.set_palette(ed.TextEditor.get_dark_palette())
-        self.area.set_tab_size(4)
-        self.area.set_insert_spaces_on_tabs(True)
-        self.area.set_text(text)
-
-    def replace(self, text):
-        """Show another text, as a step that can be undone."""
-        place = self.area.get_main_cursor_position()
-        last = self.area.get_line_count() - 1
-        end = ed.TextEditor.DocPos(last, len(self.area.get_line_text(last)))
-        self.area.replace_section_text(ed.TextEditor.DocPos(0, 0), end, text)
-        lines = text.split("\n")
-        line = min(place.line, len(lines) - 1)
-        index = min(place.index, len(lines[line]))
-        self.area.set_cursor(ed.TextEditor.DocPos(line, index))
-        self.text, self.seeks, self._marked = self.area.get_text(), True, None
-
-    def mark(self, fault):
-        """Mark a line, (number from 1, message), or none; go there unless somebody is typing."""
-        if fault != self._marked:
-            self.area.clear_markers()
-            if fault:
-                line = min(fault[0], self.area.get_line_count()) - 1
-                self.area.add_marker(line, *_BAD, fault[1], fault[1])
-            self._marked = fault
-        if fault and self.seeks:
-            line = min(fault[0], self.area.get_line_count()) - 1
-            self.area.scroll_to_line(line, ed.TextEditor.Scroll.align_middle)
-            self.seeks = False
+def _chosen(scene, state):
+    """Return the path of the model of the object that is chosen, or "" where there is none."""
+    models = [one.model.path for one in scene.objects]
+    return models[min(state.chosen, len(models) - 1)] if models else ""
 
 
 def _at(fault, path):

@@ -120,9 +120,7 @@ def renamed(scene, path, copy):
         return one._replace(**{field: renamed}) if shader.path == path else one
 
     objects = tuple(other(one, "model") for one in scene.objects)
-    return scene._replace(
-        objects=objects, lights=tuple(other(one, "kind") for one in scene.lights)
-    )
+    return scene._replace(objects=objects, lights=tuple(other(one, "kind") for one in scene.lights))
 
 
 def keep(scene):

@@ -11,6 +11,7 @@ from .desktop import LETTERS, Desktop, glfw
 from .document import Document
 from .drawer import TOOLS, Drawer, Now
 from .errors import Mistake, one_line
+from .files import shortened
 from .overlay import Overlay
 from .phrases import TEXT
 from .stage import REST, Stage
@@ -159,7 +160,7 @@ class Viewer:
         if at[1] > 1:
             page = words["page"].format(*at)
             caption = f"{page}   {caption}".strip()
-        fault = (document.fault or self.stage.fault or self.fault).replace(os.getcwd() + os.sep, "")
+        fault = shortened(document.fault or self.stage.fault or self.fault)
         fault = f"{fault}\n{words['last']}" if fault else ""
         if not self.with_panel:
             fault = fault or self.state.message
