@@ -16,7 +16,7 @@ from .card import OnCard, compiled
 
 WIDTH = 1024  # pairs in a row of a texture
 CALM = 9  # runs whose median is a time
-TIMED = (256, 64)  # pixels a side and repeats of a timed run
+TIMED = (256, 64)  # pixels a side and repeats of a run that is timed
 NOTHING = "// model   Nothing\nvec3 scatter(vec3 L, vec3 V) { return vec3(0.0); }\n"
 
 
@@ -96,28 +96,30 @@ class Instrument(OnCard):
         The median over CALM runs, alternating with the empty model's, on directions that are all
         above the surface. Only its ratio to another model's on the same machine means anything.
         """
-        pairs = self._timed_pairs()
-        nothing = catalog.parse("model", "nothing", "nothing.glsl", NOTHING)
-        jobs = ((nothing, {}), (model, values))
-        with self.context:  # which does not nest
-            spent = [self._race(jobs, pairs) for _ in range(CALM + 1)]
-        low, middle, high = statistics.quantiles(spent[1:], n=4)  # the first one compiled
+        jobs = (empty(), {}), (model, values)
+        spent = [self.spent(jobs, TIMED[1]) for _ in range(CALM + 1)]
+        each = [(own - nothing) * 1e9 / evaluations(TIMED[1]) for nothing, own in spent[1:]]
+        low, middle, high = statistics.quantiles(each, n=4)  # the first one compiled
         return middle, high - low
 
-    def _race(self, jobs, pairs):
-        """Return how many ns longer an evaluation of the second (model, values) takes."""
-        spent = []
-        for one, its in jobs:
-            array = self._prepared(one, its, "timed", TIMED[1])
-            pairs.target.use()
-            pairs.L.use(0)
-            pairs.V.use(1)
-            self.context.finish()
-            start = time.perf_counter()
-            array.render(vertices=3)
-            self.context.finish()
-            spent.append(time.perf_counter() - start)
-        return (spent[1] - spent[0]) * 1e9 / (TIMED[0] ** 2 * TIMED[1])
+    def spent(self, jobs, repeats):
+        """Return the seconds that each (model, values) takes for `evaluations` of so many repeats.
+
+        One run of each, by the wall clock.
+        """
+        pairs, seconds = self._timed_pairs(), []
+        with self.context:  # another one may be the current one
+            for model, values in jobs:
+                array = self._prepared(model, values, "timed", repeats)
+                pairs.target.use()
+                pairs.L.use(0)
+                pairs.V.use(1)
+                self.context.finish()
+                start = time.perf_counter()
+                array.render(vertices=3)
+                self.context.finish()
+                seconds.append(time.perf_counter() - start)
+        return seconds
 
     def _timed_pairs(self):
         """Return Pairs above the surface, spread evenly, in a square texture of TIMED pixels."""
@@ -171,6 +173,16 @@ class Instrument(OnCard):
                 program[name].value = value
         self.context.enable_only(0)
         return array
+
+
+def empty():
+    """Return the model that does nothing: what it takes is no model's cost."""
+    return catalog.parse("model", "nothing", "nothing.glsl", NOTHING)
+
+
+def evaluations(repeats):
+    """Return how many evaluations a run of `Instrument.spent` makes."""
+    return TIMED[0] ** 2 * repeats
 
 
 def upper(u):
