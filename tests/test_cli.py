@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from lumiar import Scene, capture
+from lumiar import Scene, capture, lesson
 from lumiar.renderer import Renderer
 
 SMALL = ("--size", "48x32", "--samples", "1")
@@ -387,6 +387,17 @@ def test_source_is_what_is_compiled(lumiar, monkeypatch, rate, stages):
     printed = lumiar("source", *options, "--set", "rotation=0,20,0").stdout
     texts = (f"// ======== {stage} stage ========\n{surface[stage].text}\n" for stage in stages)
     assert printed == "".join(texts)
+
+
+def test_info_tells_of_a_lesson_step_by_step(lumiar):
+    """Phong is a model, too: both are told."""
+    both = json.loads(lumiar("info", "phong", "--json").stdout)
+    one = lesson.load("phong")
+    assert both["kind"] == "model" and len(both["lesson"]["steps"]) == len(one.steps)
+    alone = lumiar("info", lesson.shipped()["phong"]).stdout
+    assert alone in lumiar("info", "phong").stdout
+    for step in one.steps:
+        assert step.title["en"] in alone and step.ask.get("en", "") in alone
 
 
 def test_info_tells_of_models_meshes_scenes_and_pictures(lumiar, tmp_path):

@@ -367,6 +367,30 @@ def test_a_saved_scene_file_is_read_again(tmp_path):
         assert viewer.scene.camera.azimuth == 80.0
 
 
+def test_a_saved_mesh_is_read_again(tmp_path):
+    path = tmp_path / "one.off"
+    path.write_text(TRIANGLE)
+    with Viewer(plain().changed("mesh", str(path)), "en", hidden=True, size=SIZE) as viewer:
+        settle(viewer)
+        before = shown(viewer)
+        save(viewer, path, TRIANGLE.replace("0 1 0", "0 0.2 0"))
+        other = shown(viewer)
+        assert (other != before).any()
+        assert (other == captured(hands.framed(viewer.scene, viewer._area()[1]))).all()
+
+
+def test_a_picture_of_surroundings_is_dropped(viewer, tmp_path):
+    capture(plain()._replace(size=(32, 16), background=(0.2, 0.4, 0.6)), str(tmp_path / "sky.hdr"))
+    viewer.desktop.events.append(("drop", [str(tmp_path / "sky.hdr")]))
+    before = shown(viewer)
+    settle(viewer)
+    *others, around = viewer.scene.lights
+    stay = [one for one in plain().lights if one.kind.name != "ambient"]  # it lies around, too
+    assert others == stay
+    assert around.image == str(tmp_path / "sky.hdr") and around.visible
+    assert (shown(viewer)[:50, :50] != before[:50, :50]).any()  # where only the background was
+
+
 def test_a_file_counts_only_once_it_has_settled(tmp_path):
     path, watch = tmp_path / "one.glsl", Watch()
     path.write_text("a")

@@ -99,10 +99,10 @@ class Renderer(OnCard):
             picture.viewport = (0, 0, *scene.size)
             self.present(scene, self._accumulated(scene, radiance, (0, 0), "radiance"), picture)
 
-    def forget(self, text):
-        """Free the programs made with a GLSL file's text that was edited since."""
+    def forget(self, text=None):
+        """Free the programs made with a GLSL file's text; look again at the files of meshes."""
         self._drawn = (None, "", [])
-        for key in [key for key in self._programs if text in key]:
+        for key in [key for key in self._programs if text and text in key]:
             program = self._programs.pop(key)
             self._stock.forget_program(program)
             if key in self._screens:

@@ -11,7 +11,7 @@ from .scene import Scene
 def describe(name, as_json=False):
     """Return the text that tells what a file, or something shipped, holds.
 
-    A model or light, a mesh, a scene or a picture that carries one. Raises Mistake.
+    A model or light, a mesh, a lesson, a scene or a picture that carries one. Raises Mistake.
     """
     ending, ours = os.path.splitext(name)[1].lower(), geometry.shipped()
     shaders = (*catalog.names("model"), *catalog.names("light"))
@@ -21,11 +21,15 @@ def describe(name, as_json=False):
             facts["light"] = _shader(_read_shader(name))
     elif ending == ".glsl" or name in shaders:
         facts = _shader(_read_shader(name))
+        if name in lesson.shipped():
+            facts["lesson"] = _lesson(lesson.load(name))
+    elif lesson.is_lesson(name):
+        facts = _lesson(lesson.load(name))
     elif ending in (".toml", ".png") or name in scenefile.shipped():
         return _scene(name, as_json)
     else:
         every = [*catalog.names("model"), *catalog.names("light"), *geometry.SHAPES]
-        every += [*ours, *scenefile.shipped()]
+        every += [*ours, *scenefile.shipped(), *lesson.shipped()]
         raise Mistake(f"{name}: no file that Lumiar reads; {nearest(name, every)}")
     return json.dumps(facts, indent=2, ensure_ascii=False) if as_json else _as_text(facts)
 
@@ -125,6 +129,18 @@ def _scene(name, as_json):
     return json.dumps({"name": name, "kind": "scene", **tomllib.loads(text)}, indent=2)
 
 
+def _lesson(one):
+    return {
+        "name": one.name,
+        "kind": "lesson",
+        "title": one.title,
+        "steps": [
+            {"title": step.title, "asks": step.ask, "sliders": [*step.sliders]}
+            for step in one.steps
+        ],
+    }
+
+
 def _titled(name):
     return {"name": name, "title": Scene.load(name).title}
 
@@ -138,8 +154,17 @@ def _as_text(facts):
                 limits = ", ".join(p.get("choices", ())) or _range(p)
                 text = p["text"] + (f" ({p['unit']})" if p["unit"] else "")
                 lines.append(f"  {p['name']:12} {_value(p['default']):20} {limits:20} {text}")
-        elif key == "light":
+        elif key == "steps":
+            lines.append("steps")
+            for number, step in enumerate(value, 1):
+                asks = step["asks"].get("en", "")
+                lines.append(
+                    f"  {number:<3} {step['title'].get('en', '')}{' — ' * bool(asks)}{asks}"
+                )
+        elif key in ("light", "lesson"):  # of the same name
             lines += ["", *_as_text(value).split("\n")]
+        elif isinstance(value, dict):
+            lines += [f"{f'{key} {lang}':15} {text}" for lang, text in value.items()]
         elif key == "also":
             lines += [f"also {name:10} {allowed}" for name, allowed in value.items()]
         elif key == "claims":

@@ -38,8 +38,9 @@ class Stage:
         self.renderer, self._drawn = Renderer(self.context), None
 
     def stale(self):
-        """Have the next picture drawn, whatever it shows."""
+        """Have the next picture drawn, whatever it shows: a file of it may be another one."""
         self._drawn = None
+        self.renderer.forget()
 
     def draw(self, scene, size, since):
         """Bring the picture up to date; since: seconds for which nothing has changed.
