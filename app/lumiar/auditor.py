@@ -68,7 +68,7 @@ class Auditor:
                 command, stdin=subprocess.DEVNULL, stdout=self._said[0], stderr=self._said[1]
             )
             with contextlib.suppress(OSError, AttributeError):
-                os.setpriority(os.PRIO_PROCESS, self._child.pid, 19)  # the window comes first
+                os.setpriority(os.PRIO_PROCESS, self._child.pid, 5)  # the window comes first
         except OSError as error:
             self._known[key] = {"fault": one_line(error)}
             self._tidy()

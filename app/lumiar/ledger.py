@@ -11,7 +11,7 @@ from .labels import BRIGHT, DIM
 from .phrases import TEXT
 from .stopwatch import Stopwatch
 
-GOOD, BAD = (0.5, 0.9, 0.55, 1.0), (1.0, 0.55, 0.5, 1.0)
+GOOD, BAD, WHITE = (0.5, 0.9, 0.55, 1.0), (1.0, 0.55, 0.5, 1.0), (1.0, 1.0, 1.0, 1.0)
 LOOK = 0.25  # seconds between two looks at what is still being audited
 _FLAGS = imgui.TableFlags_.row_bg | imgui.TableFlags_.sizing_stretch_prop
 
@@ -71,17 +71,20 @@ class Ledger:
             self._known, self._errors = state, None
             self._watch.forget()
         self.sheet = self.auditor.sheet(model) if model else None
-        if model and self.sheet is None:
+        audits = model and self.sheet is None
+        if audits:
             now.state.wake = min(now.state.wake, time.monotonic() + LOOK)
-        if not now.rests or now.fault or now.shown is None:
+        if not now.rests:
             now.state.wake = min(now.state.wake, time.monotonic() + LOOK)
+        elif now.fault or now.shown is None:
+            return
         elif model and self._errors is None:
             self._errors = self._error(model, values)
             now.state.restless = True
         else:
-            stage = now.stage
+            stage, timed = now.stage, None if audits else model  # an audit would be timed, too
             try:
-                due = self._watch.step(now.shown, model, values, stage.renderer, stage.cost)
+                due = self._watch.step(now.shown, timed, values, stage.renderer, stage.cost)
             except Mistake:  # the stage tells of it
                 due = False
             now.state.restless |= due
@@ -109,13 +112,9 @@ class Ledger:
         if "fault" in sheet:
             imgui.text_colored(BAD, sheet["fault"])
             return
-        if imgui.begin_table("claims", 3, _FLAGS):
-            for title in words["claim"]:
-                imgui.table_setup_column(title)
-            imgui.table_headers_row()
-            for name, said in sheet["claims"].items():
-                self._claim(names, words, names[name], said)
-            imgui.end_table()
+        _row(("", *words["claim"]), (DIM,) * 4)
+        for name, said in sheet["claims"].items():
+            self._claim(names, words, names[name], said)
         for line in sheet["broken"]:
             imgui.text_colored(BAD, _told(line, words))
         hard = sheet["hostile"]
@@ -124,18 +123,15 @@ class Ledger:
         imgui.text_colored(DIM, words["counted"].format(number, *counts))
 
     def _claim(self, names, words, name, said):
-        holds = said["verdict"].startswith("holds")
-        imgui.table_next_row()
-        imgui.table_next_column()
-        imgui.text(name)
-        imgui.table_next_column()
-        condition = said["claimed"]
-        imgui.text(names.get(condition, condition))
-        imgui.table_next_column()
-        color = GOOD if holds else BAD if not said["agrees"] else DIM
-        imgui.text_colored(color, f"{'✓' if holds else '✗'} {names[said['verdict']]}")
+        holds, em = said["verdict"].startswith("holds"), imgui.get_font_size()
+        color = GOOD if holds else DIM if said["agrees"] else BAD
+        claimed = names.get(said["claimed"], said["claimed"])
+        texts = "✓" if holds else "✗", name, claimed, names[said["verdict"]]
+        _row(texts, (color, WHITE, WHITE, color))
         if said["worst"] > 0.0:
+            imgui.indent(1.5 * em)
             imgui.text_colored(DIM, _told(f"{said['what']} ({said['where']})", words))
+            imgui.unindent(1.5 * em)
 
     def _float_error(self, words):
         if self._errors is None:
@@ -143,10 +139,12 @@ class Ledger:
         elif not self._errors:
             imgui.text_colored(DIM, words["no reference"])
         for what, found in (self._errors or {}).items():
+            if len(self._errors) > 1:
+                imgui.text(what)
             if found is None:
                 imgui.text_colored(DIM, words["black"])
                 continue
-            rows = [(words[key], f"{found[key]:.1e}") for key in ("max", "p99", "inherent")]
+            rows = [(words[key], f"{found[key]:.1e}") for key in ("max", "inherent", "p99")]
             place = _told(found["where"].partition(";")[0], words)
             _table(f"error {what}", [*rows, (words["where"], place)])
 
@@ -167,6 +165,17 @@ class Ledger:
             size = words["size"].format(*now.shown.size, now.shown.samples)
             imgui.text_colored(DIM, size)
         imgui.text_colored(DIM, self.driver)
+
+
+def _row(texts, colors):
+    """Write a sign and three texts side by side."""
+    width, em = imgui.get_content_region_avail().x, imgui.get_font_size()
+    places = (0.0, 1.5 * em, 0.36 * width, 0.68 * width)
+    begin = imgui.get_cursor_pos_x()
+    for text, color, place in zip(texts, colors, places, strict=True):
+        if place:
+            imgui.same_line(begin + place)
+        imgui.text_colored(color, text)
 
 
 def _table(name, rows):

@@ -8,9 +8,9 @@ from . import catalog, measure
 from .card import OnCard
 
 ENOUGH = 0.4  # seconds of pictures that are drawn to be timed
-BRIEF = 2e-3  # seconds that the shortest run of evaluations takes at least
-CLEAR = 10e-3  # those of a run by which the card's clock is judged
-AGREES = (0.7, 1.1)  # of the wall clock, what an honest clock tells of such a run
+BRIEF = 4e-3  # seconds that the shortest run of evaluations takes at least
+CLEAR = 20e-3  # those of pictures by which the card's clock is judged
+AGREES = (0.7, 1.1)  # share of the wall clock's time that an honest one tells of them
 
 
 class Stopwatch(OnCard):
@@ -42,11 +42,11 @@ class Stopwatch(OnCard):
         cost: seconds that the last picture took; one that takes long is not drawn again.
         """
         if self.by_card is None:
-            self.by_card = self._judged()
+            self.by_card = self._judged(scene, renderer)
         elif not self._pictures and cost > ENOUGH:
             self._pictures, self.picture = [cost], cost
         elif sum(self._pictures) < ENOUGH and len(self._pictures) < measure.CALM:
-            self._pictures.append(self._drawn(scene, renderer))
+            self._pictures.append(self._drawn(scene, renderer)[self.by_card])
             self.picture = statistics.median(self._pictures)
         elif model and len(self._rounds) < measure.CALM:
             self._race(model, values)
@@ -62,41 +62,37 @@ class Stopwatch(OnCard):
         if not self._repeats or min(spent) < BRIEF:
             self._repeats = 2 * self._repeats or 4
             return
+        self._rounds.append(spent)
+        nothing, *own = map(min, zip(*self._rounds, strict=True))  # what else runs only adds
         ns = 1e9 / measure.evaluations(self._repeats)
-        self._rounds.append([max(0.0, own - spent[0]) * ns for own in spent[1:]])
-        self.evaluation = tuple(map(statistics.median, zip(*self._rounds, strict=True)))
+        self.evaluation = tuple(max(0.0, one - nothing) * ns for one in own)
 
-    def _drawn(self, scene, renderer):
-        """Return the seconds that a picture takes, by the clock that counts here."""
+    def _drawn(self, scene, renderer, count=1):
+        """Return the seconds that a picture takes by the wall clock, and by the card's."""
         with self.context:
             if self._target and self._target.size != scene.size:
                 self.free_framebuffer(self._target)
                 self._target = None
             if not self._target:
                 self._target = self.context.framebuffer([self.context.texture(scene.size, 4)])
-        wall, card = self._timed(lambda: renderer.show(scene, self._target))
-        return card if self.by_card else wall
-
-    def _judged(self):
-        """Return whether the card's clock is honest: llvmpipe's tells a fiftieth of the truth."""
-        with contextlib.suppress(Exception):  # moderngl raises nothing more specific
-            self._query = self.context.query(time=True)
-        if not self._query:
-            return False
-        lambert, repeats, wall = catalog.read("model", "lambert"), 32, 0.0
-        jobs = ((lambert, lambert.defaults()),)
-        self._instrument.spent(jobs, 1)  # compiles it
-        while wall < CLEAR:
-            repeats *= 2
-            wall, card = self._timed(lambda: self._instrument.spent(jobs, repeats))  # noqa: B023
-        return AGREES[0] * wall < card < AGREES[1] * wall
-
-    def _timed(self, job):
-        """Return the seconds that a job takes by the wall clock, and by the card's."""
         self.context.finish()
         began = time.perf_counter()
         with self._query or contextlib.nullcontext():
-            job()
-            self.context.finish()
+            for _ in range(count):
+                renderer.show(scene, self._target)
+        self.context.finish()
         wall = time.perf_counter() - began
-        return wall, self._query.elapsed * 1e-9 if self._query else 0.0
+        card = self._query.elapsed * 1e-9 if self._query else 0.0
+        return wall / count, card / count
+
+    def _judged(self, scene, renderer):
+        """Return whether the card's clock is honest: llvmpipe's tells a fiftieth of the truth."""
+        with contextlib.suppress(Exception):  # moderngl raises nothing more specific
+            self._query = self.context.query(time=True)
+        count = 1
+        while self._query:
+            wall, card = self._drawn(scene, renderer, count)
+            if wall * count > CLEAR:
+                return AGREES[0] * wall < card < AGREES[1] * wall
+            count *= 2
+        return False
