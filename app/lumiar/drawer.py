@@ -90,7 +90,7 @@ class Drawer:
 def _made(name, now):
     """Return a tool; what it needs is imported only here."""
     if name == "sheet":
-        from .ledger import Ledger
+        from .datasheet import Datasheet
 
-        return Ledger(now)
+        return Datasheet(now)
     raise ValueError(name)

@@ -16,7 +16,7 @@ LOOK = 0.25  # seconds between two looks at what is still being audited
 _FLAGS = imgui.TableFlags_.row_bg | imgui.TableFlags_.sizing_stretch_prop
 
 
-class Ledger:
+class Datasheet:
     """The tool "sheet" of the drawer: what is known of the chosen object's model."""
 
     def __init__(self, now):

@@ -6,7 +6,7 @@ import pytest
 from hand import Spy
 from test_window import SIZE, plain, press, save, settle, shown
 
-from lumiar import audit, auditor, catalog, ledger, measure, settings
+from lumiar import audit, auditor, catalog, datasheet, measure, settings
 from lumiar.desktop import glfw
 from lumiar.window import Viewer
 
@@ -44,7 +44,7 @@ def wait(one, known, seconds=60):
 def said(one, monkeypatch):
     spy = Spy()
     with monkeypatch.context() as patch:
-        patch.setattr(ledger, "imgui", spy)
+        patch.setattr(datasheet, "imgui", spy)
         one.due = 1
         one.frame()
     return spy.said
