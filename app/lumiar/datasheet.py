@@ -160,7 +160,8 @@ class Datasheet:
         rows.append((words["picture"], picture))
         _table("cost", rows)
         if watch.picture is not None:
-            imgui.text_colored(DIM, words["card" if watch.by_card else "wall"])
+            honest = watch.clock.startswith("timer")
+            imgui.text_colored(DIM, words["card" if honest else "wall"])
         if now.shown:
             size = words["size"].format(*now.shown.size, now.shown.samples)
             imgui.text_colored(DIM, size)
