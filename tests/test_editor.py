@@ -144,9 +144,9 @@ def test_keys_belong_to_the_text_while_somebody_types(viewer):
     assert not viewer.drawer.open
 
 
-@pytest.mark.parametrize("key", ["APOSTROPHE", "SEMICOLON", "LEFT_BRACKET", "BACKSLASH", "F3", "KP_DIVIDE"])
-def test_every_key_reaches_imgui(viewer, key):
-    assert getattr(glfw, f"KEY_{key}") in viewer.desktop._keys
+def test_every_key_reaches_imgui(viewer):
+    for key in ("APOSTROPHE", "SEMICOLON", "LEFT_BRACKET", "BACKSLASH", "F3", "KP_DIVIDE"):
+        assert getattr(glfw, f"KEY_{key}") in viewer.desktop._keys
 
 
 def test_unsaved_text_survives_closing_the_tool_another_model_and_another_file(viewer, own):
