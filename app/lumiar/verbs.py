@@ -24,17 +24,21 @@ def view(options):
     path = named.get(options.scene) or os.path.abspath(os.path.expanduser(options.scene or ""))
     path = path if path.endswith(".toml") else ""
     name = os.path.splitext(os.path.basename(options.scene or ""))[0]
+    scene, fault = None, None
     try:
         scene = _viewed(options)
         document = Document(scene, name, path, options.restore)
     except Mistake as mistake:  # in a file, it can be put right while the window is open
-        scene = None
-        document = Document.expecting(lambda: _viewed(options), name, path, mistake)
+        fault = mistake
+        document = Document.expecting(lambda: _viewed(options), name, path, fault)
     try:
+        from .desktop import has_display
         from .window import Viewer
     except ImportError as error:
         advice = "`lumiar capture` draws without a window"
         raise Mistake(f"no window can be opened here ({one_line(error, 120)}); {advice}") from None
+    if fault and not has_display():
+        raise fault
     lang = getattr(scene, "lang", "")
     lang = options.lang or (lang if lang in scenefile.LANGUAGES else "")
     with Viewer(document, lang or scenefile.system_language()) as viewer:
