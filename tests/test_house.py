@@ -25,9 +25,9 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "scene editing",
     "renderer lesson sections opening",
     "picture options measure views report panel document",
-    "hostile measuring falsecolour reflectance deck presenter stage stopwatch",
+    "hostile measuring falsecolour reflectance deck presenter stage film stopwatch",
     "examine probe bench",
-    "audit datasheet studies",
+    "audit filming datasheet studies",
     "drawer",
     "window",
     "verbs benching",
@@ -39,7 +39,7 @@ GL = {"moderngl", "glcontext"}
 HOMES = {  # a heavy library and the modules that may know it
     "moderngl": {"card", "stock", "renderer"},
     "glcontext": {"card"},
-    "PIL": {"image", "sheet", "legend", "slide"},
+    "PIL": {"image", "sheet", "legend", "slide", "film"},
     "isal": {"image", "cache"},
     "flip_evaluator": {"difference"},
     "matplotlib": {"panels", "plots"},
@@ -55,6 +55,7 @@ HOMES = {  # a heavy library and the modules that may know it
         "drawer",
         "window",
         "datasheet",
+        "filming",
     },
     "glfw": {"desktop"},
 }

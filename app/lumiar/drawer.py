@@ -6,7 +6,7 @@ from imgui_bundle import imgui
 
 from .words import TEXT
 
-TOOLS = {"sheet": "F4"}  # {name: its key}, in the order of their buttons
+TOOLS = {"sheet": "F4", "film": "F8"}  # {name: its key}, in the order of their buttons
 WIDE, NARROWEST = 0.34, 18.0  # share of the window, and the least in sizes of letters
 
 
@@ -93,4 +93,8 @@ def _made(name, now):
         from .datasheet import Datasheet
 
         return Datasheet(now)
+    if name == "film":
+        from .filming import Filming
+
+        return Filming()
     raise ValueError(name)
