@@ -126,7 +126,9 @@ def test_a_module_is_short_and_says_what_it_is(path):
 
 
 @pytest.mark.parametrize(
-    "path", sorted((ROOT / "glsl" / "models").glob("*.glsl")), ids=lambda p: p.stem
+    "path",
+    sorted(p for f in ("models", "studies") for p in (ROOT / "glsl" / f).glob("*.glsl")),
+    ids=lambda p: f"{p.parent.name}-{p.stem}",
 )
 def test_a_model_fits_on_a_page(path):
     text = path.read_text()
