@@ -6,7 +6,11 @@ from imgui_bundle import imgui
 
 from .words import TEXT
 
-TOOLS = {"sheet": "F4", "editor": "F7"}  # {name: its key}, in the order of their buttons
+TOOLS = {
+    "sheet": "F4",
+    "editor": "F7",
+    "film": "F8",
+}  # {name: its key}, in the order of their buttons
 WIDE, NARROWEST = 0.34, 18.0  # share of the window, and the least in sizes of letters
 WIDER = {"editor": 0.42}  # share for what has long lines
 
@@ -101,4 +105,8 @@ def _made(name, now):
         from .editor import Editor
 
         return Editor()
+    if name == "film":
+        from .filming import Filming
+
+        return Filming()
     raise ValueError(name)

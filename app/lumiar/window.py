@@ -1,8 +1,6 @@
 """The window: input → next Scene, its picture, the panel on it; drawn only when something moved."""
 
-import itertools
 import math
-import os
 import time
 
 from imgui_bundle import imgui
@@ -12,7 +10,7 @@ from .desktop import LETTERS, Desktop, glfw
 from .document import Document
 from .drawer import TOOLS, Drawer, Now
 from .errors import Mistake, one_line
-from .files import shortened
+from .files import shortened, unused
 from .overlay import Overlay
 from .phrases import TEXT
 from .stage import REST, Stage
@@ -254,8 +252,7 @@ class Viewer:
             self._tell("reloaded", ", ".join(names))
 
     def _screenshot(self):
-        paths = (f"lumiar-{i:03}.png" for i in itertools.count(1))
-        path = next(path for path in paths if not os.path.exists(path))
+        path = unused("lumiar", ".png")
         try:
             picture.write(self.stage.shown, path, self.stage.renderer)
         except (Mistake, OSError) as error:
