@@ -19,8 +19,8 @@ FORMS = ("exact", "g_form", "textbook", "schlick", "schlick_pow", "f82", "consta
 FORMS_INSIDE = (*FORMS[:4], "schlick_t")
 FORMS_METAL = ("exact", "textbook", "schlick", "f82", "constant")
 WORDS = {
-    "absolute": {"en": "largest absolute error", "pt": "maior erro absoluto"},
-    "relative": {"en": "largest relative error", "pt": "maior erro relativo"},
+    "absolute": {"en": "absolute error", "pt": "erro absoluto"},
+    "relative": {"en": "relative error", "pt": "erro relativo"},
     "glass": {"en": "glass from outside, n = 1.5", "pt": "vidro por fora, n = 1,5"},
     "outside": {"en": "from outside, n 1.1 to 4", "pt": "por fora, n de 1,1 a 4"},
     "near one": {"en": "n = 1.001 and 1.000001", "pt": "n = 1,001 e 1,000001"},
