@@ -41,7 +41,7 @@ def test_a_planted_fast_and_exact_variant_is_the_front():
     found = [*BARGAIN, point("planted", 0.0, 0.2)]
     assert front(found) == ["planted"]
     assert said(found) == [
-        "PLANTED has no error that float32 could avoid, and nothing is cheaper: use it.",
+        "PLANTED has no error to speak of, and nothing is clearly cheaper: use it.",
         "No bargain: EXACT, QUICK.",
     ]
 

@@ -2,11 +2,14 @@
 
 import os
 import re
+import time
 
 from . import lesson as lessons
 from . import opening
+from .clock import Clock
 from .errors import Mistake, one_line
 from .history import History
+from .parts import SCENE
 from .scene import Scene
 from .texts import Texts, ships
 from .watch import Watch
@@ -27,6 +30,7 @@ class Document:
 
     def __init__(self, scene, name="", path="", restored=False):
         self.watch, self.texts, self._memory = Watch(), Texts(restored), {}
+        self.clock, self._running = Clock(SCENE["time"].high), (None, None)
         self.history, self._known, self._typed, self._waiting = None, (None, None), {}, None
         self.open(scene, name, path)
         self._read(self.texts.drafts)
@@ -65,11 +69,16 @@ class Document:
 
     @property
     def scene(self):
-        """The scene as it is, its shaders as their files are."""
+        """The scene as it is, its shaders as their files are, its time where the clock runs."""
         if self._known[0] is not self.history.scene:
             now = opening.renewed(self.history.scene, self.texts.fresh, self._memory)
             self._known = (self.history.scene, now)
-        return self._known[1]
+        if not self.clock.runs:
+            return self._known[1]
+        still, time = self._known[1], self.clock.time
+        if self._running[0] is not still or self._running[1].time != time:
+            self._running = (still, still._replace(time=time))
+        return self._running[1]
 
     @property
     def caption(self):
@@ -98,8 +107,26 @@ class Document:
         """Make a scene the one that is; see `History.push`."""
         if scene is not self.scene:
             self.texts.faults.pop("", None)
+            if self.clock.runs and scene.time != self.scene.time:  # set by hand
+                self.clock.start(time.monotonic(), scene.time)
             self.history.push(scene, key)
             self._follow()
+
+    def play(self):
+        """Let the time of the scene run, or stop it where it is, as a step to undo."""
+        if self.clock.runs:
+            scene = self.scene
+            self.clock.stop()
+            self.push(scene)
+        elif uses_time(self.scene):
+            self.clock.start(time.monotonic(), self.scene.time)
+
+    def tick(self, now):
+        """Take that it is now; return whether the time of the scene runs."""
+        if self.clock.runs and not uses_time(self.scene):
+            self.clock.stop()
+        self.clock.tick(now)
+        return self.clock.runs
 
     def undo(self):
         """Go back a step."""
@@ -217,6 +244,7 @@ class Document:
         self.pages = [(shot.caption, shot.scene) for shot in shots] or opening.pages(scene)
 
     def _begin(self):
+        self.clock.stop()
         self.home = self.pages[self.page][1]
         if self.history and not self.stops:
             self.history.push(self.home)
@@ -236,6 +264,11 @@ class Document:
         back = [path for path in self.texts.fresh if path in self.watch.paths - before]
         if back:  # they may have been saved while the scene had no use for them
             self._read(back)
+
+
+def uses_time(scene):
+    """Return whether a model or a light of a scene changes with its time."""
+    return any(p.widget == "time" for shader in opening.shaders(scene) for p in shader.parameters)
 
 
 def _at_fault(mistake):

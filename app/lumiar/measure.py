@@ -180,7 +180,12 @@ class Instrument(OnCard):
         for name, value in layout.packed(model, values, 0.0, "").items():
             if name in program:
                 program[name].write(value)
-        for name, value in (("rig_L", 0), ("rig_V", 1), ("rig_repeats", repeats)):
+        for name, value in (
+            ("rig_L", 0),
+            ("rig_V", 1),
+            ("rig_repeats", repeats),
+            ("rig_tiny", 1e-30),
+        ):
             if name in program:
                 program[name].value = value
         self.context.enable_only(0)

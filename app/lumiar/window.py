@@ -80,6 +80,8 @@ class Viewer:
         """Take what came, for up to `wait` seconds; draw if anything moved; return whether."""
         events, now = self.desktop.take(wait), time.monotonic()
         self.due = max(self.due, now >= self.state.wake)
+        if self.document.tick(now):
+            self.due, self.moved = max(self.due, 1), now
         saved, typed = self.document.watch.changed(now), self.document.look(now)
         if events or saved or typed or self.due or self._lingers(now):
             self.desktop.use()
@@ -108,7 +110,7 @@ class Viewer:
         self.state.restless, self.state.wake = False, math.inf
         if self.with_panel:
             self.state.view, self.state.tool = self.stage.view, self.drawer.open
-            self.state.able = self.document.history.able
+            self.state.able, self.state.runs = self.document.history.able, self.document.clock.runs
             parts = self.presenter.parts(self.document.stop) if self.presents else panel.ALL
             self._push(panel.draw(self.scene, self.state, parts), self.state.gesture)
             self._wish()
@@ -226,6 +228,8 @@ class Viewer:
             self._push(self.scene._replace(camera=document.home.camera))
         elif key in _TURNS:
             document.turn(_TURNS[key])
+        elif key == glfw.KEY_SPACE:
+            document.play()
         elif key == glfw.KEY_P:
             self.presents = not self.presents
         elif key in _TOOL_KEYS:
