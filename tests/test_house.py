@@ -18,16 +18,16 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "occluders history words notation watch phrases banner timing study",
     "catalog mesh reference_energy tables panels units estimates card legend slide readout labels "
     "advice",
-    "ledger formats shapes plots factor_table reference flatten daylight widgets desktop",
+    "ledger formats shapes plots factor_table reference flatten daylight widgets desktop auditor",
     "geometry compose parts materials hemisphere surroundings",
     "settings factor_card layout content variants navigate overlay",
     "scenefile stock hands targets",
     "scene editing",
     "renderer lesson sections opening",
     "picture options measure views report panel document",
-    "hostile measuring falsecolour reflectance deck presenter stage",
+    "hostile measuring falsecolour reflectance deck presenter stage stopwatch",
     "examine probe bench",
-    "audit studies",
+    "audit datasheet studies",
     "drawer",
     "window",
     "verbs benching",
@@ -54,6 +54,7 @@ HOMES = {  # a heavy library and the modules that may know it
         "desktop",
         "drawer",
         "window",
+        "datasheet",
     },
     "glfw": {"desktop"},
 }
@@ -124,7 +125,9 @@ def test_a_module_is_short_and_says_what_it_is(path):
 
 
 @pytest.mark.parametrize(
-    "path", sorted((ROOT / "glsl" / "models").glob("*.glsl")), ids=lambda p: p.stem
+    "path",
+    sorted(p for f in ("models", "studies") for p in (ROOT / "glsl" / f).glob("*.glsl")),
+    ids=lambda p: f"{p.parent.name}-{p.stem}",
 )
 def test_a_model_fits_on_a_page(path):
     text = path.read_text()

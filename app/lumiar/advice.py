@@ -81,11 +81,13 @@ def sentences(group, metric, names, lang):
     out[0] = out[0][0].upper() + out[0][1:]
     if pick.error >= metric.visible:
         out.append(words["shows"])
-    beaten = [p for p in group if not p.pareto]
-    if beaten:
-        out.append(words["beaten"].format(names=said(beaten)))
-    for one in beaten:
-        better = [p for p in group if p.pareto and study.dominates(p, one, metric.floor)]
-        if one.default and better:
-            out.append(words["default"].format(name=names[one.variant], names=said(better)))
+    others = [p for p in group if not p.pareto]
+    if others:
+        out.append(words["beaten"].format(names=said(others)))
     return out
+
+
+def beaten(variant, by, names, lang):
+    """Return the sentence on a default that others beat in every metric; see `study.beaten`."""
+    others = ", ".join(names[one] for one in by)
+    return WORDS[lang]["default"].format(name=names[variant], names=others)

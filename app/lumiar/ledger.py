@@ -82,6 +82,10 @@ def advised(found, metrics, words):
             for lang in TEXT
         }
         out.append({"case": case, "metric": metric, **said})
+    for case, (default, by) in study.beaten(found, metrics).items():
+        last = [row for row in out if row["case"] == case][-1]
+        for lang in TEXT:
+            last[lang].append(advice.beaten(default, by, _names(words, lang), lang))
     return out
 
 

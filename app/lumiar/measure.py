@@ -104,15 +104,19 @@ class Instrument(OnCard):
         They race each other and an empty model, whose time is taken off, for about so many seconds,
         on directions that are all above the surface. clock: `timing.believed`'s, unless given.
         """
-        clock = clock or timing.believed(self.context, [self.timed(*NOTHING, 64)])[0]
+        clock = clock or timing.believed(self.context, [self.timed(*NOTHING, 64)])
+        runs, count = self.racers(jobs, clock)
+        found = timing.race(runs, clock, seconds, empty=0, spread=True)
+        return [one.per(count) for one in found[1:]]
+
+    def racers(self, jobs, clock):
+        """Return [job, …] of a run of the empty model and of each (model, values), evaluations."""
         if not self._repeats:  # a run long enough to be timed, whatever the card
             self._repeats = TIMED[1]
-            clock(self.timed(*NOTHING))
-            while clock(self.timed(*NOTHING))[1] < LONG and self._repeats < 1 << 14:
+            clock.time(self.timed(*NOTHING))
+            while clock.time(self.timed(*NOTHING))[1] < LONG and self._repeats < 1 << 14:
                 self._repeats *= 2
-        runs = [self.timed(*job) for job in (NOTHING, *jobs)]
-        found = timing.race(runs, clock, seconds, empty=0, alike=True)
-        return [one.per(TIMED[0] ** 2 * self._repeats) for one in found[1:]]
+        return [self.timed(*job) for job in (NOTHING, *jobs)], TIMED[0] ** 2 * self._repeats
 
     def timed(self, model, values, repeats=None):
         """Return the job of evaluating a model at all pixels of a timed run, again and again."""
