@@ -8,6 +8,8 @@ import math
 from html import escape
 from typing import NamedTuple
 
+from .notation import number
+
 LANGUAGES = ("en", "pt")
 WIDTH, HEIGHT = 360.0, 270.0  # units of the picture; letters have SIZE of them
 LEFT, RIGHT, TOP, BOTTOM = 50.0, 12.0, 24.0, 46.0
@@ -22,7 +24,6 @@ SHAPES = (  # on a circle of radius 1: told apart without any colour, too
     "M0 1.2L1.1-.75H-1.1Z",
     "M-1.1-.4H-.4V-1.1H.4V-.4H1.1V.4H.4V1.1H-.4V.4H-1.1Z",
 )
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _STEPS = ((1.0,), (1.0, 3.0), (1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 5.0, 7.0))
 
 
@@ -73,7 +74,7 @@ class Axis(NamedTuple):
                 if len(values) >= 3:
                     break
         inside = [v for v in values if 0.999 * self.low < v < 1.001 * self.high]
-        return [(0.0, "0")] * self.zero + [(v, power(v)) for v in inside]
+        return [(0.0, "0")] * self.zero + [(v, number(v)) for v in inside]
 
 
 def fitted(values, length, least=4.0):
@@ -84,15 +85,6 @@ def fitted(values, length, least=4.0):
     low, high = low / spare, high * spare
     wider = math.sqrt(max(least / (high / low), 1.0))
     return Axis(low / wider, high * wider, length, any(not v > 0.0 for v in values))
-
-
-def power(value):
-    """Return a number above 0 in three digits as one reads it: 0.02, 300, 5·10⁻⁷."""
-    exponent = math.floor(math.log10(value) + 1e-9)
-    if -4 < exponent < 4:
-        return f"{float(f'{value:.3g}'):g}"
-    digit = f"{value / 10.0**exponent:.3g}"
-    return ("" if digit == "1" else f"{digit}·") + "10" + str(exponent).translate(_RAISED)
 
 
 def glyph(style, x=0.0, y=0.0, full=True, radius=RADIUS):

@@ -15,6 +15,7 @@ import json
 from . import advice, study
 from .errors import Mistake
 from .files import read_bytes
+from .notation import number
 
 SCHEMA = 1
 LIMIT = 1 << 26  # bytes of a report
@@ -98,8 +99,8 @@ def table(one, lang):
     for (case, metric), group in study.grouped(found).items():
         rows = [words["head"]]
         for point in sorted(group, key=lambda p: p.cost):
-            error = "" if point.error is None else advice.number(point.error)
-            cost, low, high = (f"{x:.3g}" for x in (point.cost, point.low, point.high))
+            error = "" if point.error is None else number(point.error, 2, lang)
+            cost, low, high = (number(x, 3, lang) for x in (point.cost, point.low, point.high))
             mark = "* " if point.pareto else "  "
             default = f" ({words['default']})" * point.default
             name = mark + names[point.variant] + default

@@ -12,22 +12,26 @@ QUALITY = 80  # of WebP
 
 
 class Plate(NamedTuple):
-    """A picture: an address that holds it, (width, height), a map of errors' scale.Scale or None."""
+    """A picture: an address that holds it, (width, height), the scale.Scale of a map of errors."""
 
     address: str
     size: tuple
     ruler: object = None
 
 
-def drawn(report, folder):
-    """Return {file: Plate} of all that a report in a folder names; see `ledger`.
+def drawn(studies, folder):
+    """Return {file: Plate} of all that studies of a report in a folder name; see `ledger`.
 
-    The errors of one case are on one scale, so that its variants can be compared.
+    The errors of one case are on one scale, so that its variants can be compared. A picture that
+    is no longer there is left out.
     """
     found = {}
-    for one in report["studies"]:
+    for one in studies:
         maps = {}
         for row in one["pictures"]:
+            names = [row[key] for key in ("file", "error_file") if key in row]
+            if not all(os.path.exists(os.path.join(folder, name)) for name in names):
+                continue
             pixels, _ = image.read(os.path.join(folder, row["file"]))
             found[row["file"]] = _plate(np.rint(pixels * 255.0))
             if "error_file" in row:
