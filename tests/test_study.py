@@ -85,6 +85,11 @@ def test_the_default_is_advised_where_nothing_tells_it_from_another():
     assert said(found)[0].startswith("EXACT has no error")
 
 
+def test_errors_that_hardly_differ_leave_the_default():
+    found = [point("exact", 0.00101, 1.0, default=True), point("quick", 0.001, 0.99)]
+    assert said(found)[0].startswith("EXACT errs by 0.001")
+
+
 def test_the_sentence_is_derived_from_the_figures():
     assert said(BARGAIN) == [
         "EXACT costs 0.4 ns more than QUICK and removes an error of up to 0.036: use it."

@@ -38,7 +38,7 @@ def number(value):
 def chosen(group, metric):
     """Return the point to use: the cheapest of the front whose error does not show.
 
-    Of those that cost about the same the most exact, or Lumiar's own if all are exact; the most
+    Of those that cost about the same the most exact, Lumiar's own if errors are alike; the most
     exact of the front if every error shows.
     None where there is no front.
     """
@@ -50,7 +50,8 @@ def chosen(group, metric):
         return min(front, key=lambda point: (point.error, point.cost))
     least = min(unseen, key=lambda point: point.high)
     alike = [point for point in unseen if not study.cheaper(least, point)]
-    return min(alike, key=lambda p: (max(p.error, metric.floor), not p.default, p.error))
+    exact = study.CLEAR * max(metric.floor, min(point.error for point in alike))
+    return min((p for p in alike if p.error <= exact), key=lambda p: (not p.default, p.error))
 
 
 def sentences(group, metric, names, lang):
