@@ -34,7 +34,7 @@ class Instrument(OnCard):
     def __init__(self, context=None):
         super().__init__(context)
         self._programs, self._pairs, self._timed = {}, [], None
-        self._repeats = 0  # of a timed run, see costs
+        self._repeats, self._clock = 0, None  # of a timed run, see costs
 
     def _free(self):
         for program, array in self._programs.values():
@@ -104,7 +104,9 @@ class Instrument(OnCard):
         They race each other and an empty model, whose time is taken off, for about so many seconds,
         on directions that are all above the surface. clock: `timing.believed`'s, unless given.
         """
-        clock = clock or timing.believed(self.context, [self.timed(*NOTHING, 64)])
+        if not (clock or self._clock):
+            self._clock = timing.believed(self.context, [self.timed(*NOTHING, 64)])
+        clock = clock or self._clock
         runs, count = self.racers(jobs, clock)
         found = timing.race(runs, clock, seconds, empty=0, spread=True)
         return [one.per(count) for one in found[1:]]
