@@ -1,21 +1,18 @@
 """What is open in the window: pages of scenes, their history, and the files they are made from."""
 
 import os
-import re
 import time
 
 from . import lesson as lessons
 from . import opening
 from .clock import Clock
 from .errors import Mistake, one_line
+from .gate import Gate
 from .history import History
 from .parts import SCENE
 from .scene import Scene
-from .texts import Texts, ships
+from .texts import Texts, at_fault
 from .watch import Watch
-
-QUIET = 0.3  # seconds without a key before what is typed is looked at
-_AT_FAULT = re.compile(r"(.+?\.(?:glsl|toml)):")
 
 
 class Document:
@@ -26,12 +23,16 @@ class Document:
     home    the scene as it was opened; pages and page: (captions, Scene) of a sheet, and which
     stops   of a lesson, one for each page, else []
     texts   what is edited and not saved, and what is wrong in which file; restored: as it was left
+    gate    what comes into the scene of what was edited
+
+    load() returns the scene once more, should it have to be opened again.
     """
 
-    def __init__(self, scene, name="", path="", restored=False):
-        self.watch, self.texts, self._memory = Watch(), Texts(restored), {}
+    def __init__(self, scene, name="", path="", restored=False, load=None):
+        self.watch, self.texts, self._load = Watch(), Texts(restored), load
+        self.gate = Gate(self.texts)
         self.clock, self._running = Clock(SCENE["time"].high), (None, None)
-        self.history, self._known, self._typed, self._waiting = None, (None, None), {}, None
+        self.history, self._known, self._waiting = None, (None, None), None
         self.open(scene, name, path)
         self._read(self.texts.drafts)
 
@@ -42,11 +43,22 @@ class Document:
         load() returns the scene. Until then the default scene is in its place. Raises the mistake
         where it names no file that could be edited.
         """
-        if not _at_fault(mistake):
+        if not at_fault(mistake):
             raise mistake
         document = Document(Scene.default())
         document._expect(load, name, path, mistake)
         return document
+
+    def guard(self, trial):
+        """Have a trial.Trial draw what is edited before it comes into the scene, now and later."""
+        self.gate.trial, scene = trial, self.history.scene
+        try:
+            self.gate.admit(scene)
+        except Mistake as mistake:
+            load, name, path = self._load or (lambda: opening.reread(scene)), self.name, self.path
+            self.gate.fresh.clear()
+            self.open(Scene.default())
+            self._expect(load, name, path, mistake)
 
     @property
     def fault(self):
@@ -71,7 +83,7 @@ class Document:
     def scene(self):
         """The scene as it is, its shaders as their files are, its time where the clock runs."""
         if self._known[0] is not self.history.scene:
-            now = opening.renewed(self.history.scene, self.texts.fresh, self._memory)
+            now = self.gate.renewed(self.history.scene)
             self._known = (self.history.scene, now)
         if not self.clock.runs:
             return self._known[1]
@@ -92,21 +104,22 @@ class Document:
 
     def open(self, scene, name="", path=""):
         """Show a scene, or the first picture of a sheet, instead of what was shown."""
-        self._take(scene)
-        self.page = 0
+        stops, pages = _pages(scene)
+        self.gate.admit(pages[0][1], self.history and self.scene)
+        self.stops, self.pages, self.page = stops, pages, 0
         self.name, self.path = name, path
         self._begin()
 
     def turn(self, step):
         """Show the picture of the sheet that is so many further on, if there is one."""
-        if 0 <= self.page + step < len(self.pages):
-            self.page += step
+        page = self.page + step
+        if 0 <= page < len(self.pages) and self.gate.admits(self.pages[page][1], self.scene):
+            self.page = page
             self._begin()
 
     def push(self, scene, key=None):
         """Make a scene the one that is; see `History.push`."""
-        if scene is not self.scene:
-            self.texts.faults.pop("", None)
+        if scene is not self.scene and self.gate.admits(scene, self.scene):
             if self.clock.runs and scene.time != self.scene.time:  # set by hand
                 self.clock.start(time.monotonic(), scene.time)
             self.history.push(scene, key)
@@ -147,7 +160,6 @@ class Document:
                 self.open(scene, os.path.splitext(os.path.basename(path))[0], path)
             else:
                 self.push(scene)
-            self.texts.faults.pop("", None)
         except (Mistake, OSError) as mistake:
             self.texts.faults[""] = one_line(mistake)
 
@@ -161,21 +173,28 @@ class Document:
         files = self.texts.saved(paths)
         self.texts.faults.pop("", None)
         self._read(files)
-        faults = self.texts.faults
-        return sorted(os.path.basename(path) for path in files if path not in faults)
+        return self.gate.names(files)
+
+    def settle(self):
+        """Take what was tried by now; return the names of files that came into the scene, or None.
+
+        What is being saved is tried already while it settles.
+        """
+        self.gate.foresee(self.watch.moving, self.history.scene)
+        decided = self.gate.settle(self.history.scene)
+        if not decided:
+            return None
+        self._renew()
+        return self.gate.names(path for path in decided if path not in self.texts.drafts)
 
     def edit(self, path, text, now):
         """Take what is typed for a file, without saving it; now in seconds."""
-        self.texts.edit(path, text)
-        self._typed[path] = now
+        self.gate.edit(path, text, now)
 
     def look(self, now, at_once=False):
         """Have what was typed in the scene, once it rests; return whether there was anything."""
-        quiet = [path for path, at in self._typed.items() if at_once or now - at >= QUIET]
-        for path in quiet:
-            del self._typed[path]
-        if quiet:
-            self._read(quiet)
+        quiet = self.gate.quiet(now, at_once)
+        self._read(quiet)
         return bool(quiet)
 
     def revert(self, path):
@@ -191,21 +210,18 @@ class Document:
     def rename(self, path, copy):
         """Have the scene use a copy, just written, of the file of a model or a light."""
         self.texts.forget(path)
-        fresh = self.texts.fresh.pop(path, None)
         scene = opening.renamed(self.scene, path, copy)
+        self.gate.rename(path, copy)
         self._known = (None, None)
-        if fresh:
-            self.texts.fresh[copy] = fresh._replace(name=copy, path=copy)
         self.push(scene)
         self._read([copy])
 
     def _read(self, paths):
-        """Read those Shaders of the scene again that are files of such paths, or include them."""
-        texts = self.texts
-        for shader in {one.path: one for one in opening.shaders(self.scene)}.values():
-            if shader.path in paths or not texts.libraries([shader]).isdisjoint(paths):
-                made = texts.read(shader, paths)
-                texts.fresh |= {made.path: made} if made else {}
+        if paths:
+            self.gate.read(paths, self.history.scene)
+            self._renew()
+
+    def _renew(self):
         self._known = (None, None)
         self._follow()
 
@@ -213,11 +229,13 @@ class Document:
         """Read the file of the scene again."""
         try:
             is_lesson = lessons.is_lesson(self.path)
-            self._take((lessons.load if is_lesson else Scene.load)(self.path))
+            stops, pages = _pages((lessons.load if is_lesson else Scene.load)(self.path))
+            self.gate.admit(pages[min(self.page, len(pages) - 1)][1], self.scene)
         except Mistake as mistake:
             self.texts.faults[self.path] = one_line(mistake)
             return
         self.texts.faults.pop(self.path, None)
+        self.stops, self.pages = stops, pages
         self.page = min(self.page, len(self.pages) - 1)
         self._begin()
 
@@ -232,16 +250,10 @@ class Document:
                 return
             except Mistake as again:
                 mistake = again
-        file = _at_fault(mistake) or self._waiting[-1]
+        file = at_fault(mistake) or (self._waiting or [path])[-1]
         self.texts.faults[file] = one_line(mistake)
         self._waiting = (load, name, path, file)
         self._follow()
-
-    def _take(self, scene):
-        """Take the pages of a Scene or of a Lesson."""
-        self.stops = lessons.stops(scene) if isinstance(scene, lessons.Lesson) else []
-        shots = [stop.shot for stop in self.stops]
-        self.pages = [(shot.caption, shot.scene) for shot in shots] or opening.pages(scene)
 
     def _begin(self):
         self.clock.stop()
@@ -261,18 +273,18 @@ class Document:
     def _follow(self):
         before = self.watch.paths
         self.watch.follow(self._followed)
-        back = [path for path in self.texts.fresh if path in self.watch.paths - before]
+        back = [path for path in self.gate.fresh if path in self.watch.paths - before]
         if back:  # they may have been saved while the scene had no use for them
             self._read(back)
+
+
+def _pages(scene):
+    """Return (stops, pages) of a Scene or of a Lesson."""
+    stops = lessons.stops(scene) if isinstance(scene, lessons.Lesson) else []
+    shots = [stop.shot for stop in stops]
+    return stops, [(shot.caption, shot.scene) for shot in shots] or opening.pages(scene)
 
 
 def uses_time(scene):
     """Return whether a model or a light of a scene changes with its time."""
     return any(p.widget == "time" for shader in opening.shaders(scene) for p in shader.parameters)
-
-
-def _at_fault(mistake):
-    """Return the path of the file that a Mistake names, or None."""
-    found = _AT_FAULT.match(str(mistake))
-    path = os.path.abspath(found.group(1)) if found else ""
-    return path if os.path.isfile(path) and not ships(path) else None

@@ -62,6 +62,7 @@ class Editor:
         """Draw the text, and what is wrong below it; take what is typed."""
         texts, path = now.document.texts, self.path
         if path not in self.sheets:
+            now.document.gate.trial.start()  # while it is read
             self.sheets[path] = Code(text, path.endswith(".glsl"))
         sheet, fault = self.sheets[path], texts.faults.get(path, now.fault)
         sheet.mark(_at(fault, path))

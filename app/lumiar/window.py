@@ -14,9 +14,10 @@ from .files import shortened, unused
 from .overlay import Overlay
 from .phrases import TEXT
 from .stage import REST, Stage
+from .trial import Trial
 
 SIZE = (1280, 800)
-IDLE = 0.15  # seconds between two looks at the files
+IDLE, SOON = 0.15, 0.005  # seconds between two looks at the files, and while one is being saved
 FRAMES = 3  # that imgui takes to settle after an event
 LINGER = 0.7  # seconds after which a tooltip has come up
 NOTICE = 4.0  # seconds that a message of something done stays
@@ -33,7 +34,14 @@ class Viewer:
 
     def __init__(self, scene, lang, name="", path="", hidden=False, size=SIZE):
         self.document = scene if isinstance(scene, Document) else Document(scene, name, path)
-        self.desktop = Desktop(size, "Lumiar", hidden)
+        self.trial = Trial()
+        if self.document.gate.own(self.scene):
+            self.trial.start()  # while the window opens
+        try:
+            self.desktop = Desktop(size, "Lumiar", hidden)
+        except Mistake:
+            self.trial.release()
+            raise
         context = self.desktop.context
         self.stage, self.overlay, self.drawer = Stage(context), Overlay(context), Drawer()
         panel.prepare(LETTERS * self.desktop.scale)
@@ -46,6 +54,8 @@ class Viewer:
         self.picked, self._pressed, self._place = None, None, (0.0, 0.0)
         self.with_panel, self.with_keys, self.due = True, False, FRAMES
         self.kept, self.kept_at = None, time.monotonic()
+        self.trial.driver = self.stage.renderer.name
+        self.document.guard(self.trial)
 
     def __enter__(self):
         return self
@@ -58,6 +68,7 @@ class Viewer:
         if self.desktop.window:
             self._keep()
             self.desktop.use()
+            self.trial.release()
             self.drawer.release()
             self.stage.release()
             self.overlay.release()
@@ -71,7 +82,8 @@ class Viewer:
     def run(self):
         """Turn until the window is closed."""
         while not self.desktop.closing:
-            wait = 0.0 if self.due else 0.05 if self.document.watch.restless else IDLE
+            soon = self.trial.busy or self.document.watch.restless
+            wait = 0.0 if self.due else SOON if soon else IDLE
             now = time.monotonic()
             wait = min(wait, 0.1) if self._lingers(now) else wait
             self.frame(max(0.0, min(wait, self.state.wake - now)))
@@ -83,7 +95,8 @@ class Viewer:
         if self.document.tick(now):
             self.due, self.moved = max(self.due, 1), now
         saved, typed = self.document.watch.changed(now), self.document.look(now)
-        if events or saved or typed or self.due or self._lingers(now):
+        tried = self.document.settle()
+        if events or saved or typed or tried is not None or self.due or self._lingers(now):
             self.desktop.use()
         if events or typed:
             self.due, self.awake = FRAMES, now + LINGER
@@ -91,6 +104,8 @@ class Viewer:
             getattr(self, f"_on_{event}")(*how)
         if saved:
             self._reload(saved)
+        if tried is not None:
+            self._renewed(tried)
         if not (self.due or self._lingers(now)) or 0 in self.desktop.size:
             if now - self.kept_at > KEEP:
                 self._keep()
@@ -118,6 +133,7 @@ class Viewer:
         self.due = max(self.due, 2 * self.state.restless)
         left, size = self._area()
         self.stage.draw(self.scene, size, now - self.moved)
+        self.trial.expect(size, self.stage.cost)
         self._say_over(left, size, now)
         imgui.render()
         screen = desktop.context.screen
@@ -249,9 +265,11 @@ class Viewer:
             self.desktop.close()
 
     def _reload(self, paths):
-        names = self.document.reload(paths)
-        self.due = FRAMES
+        self._renewed(self.document.reload(paths))
         self.stage.stale()
+
+    def _renewed(self, names):
+        self.due = FRAMES
         if names:
             self._tell("reloaded", ", ".join(names))
 
