@@ -15,7 +15,7 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "files",
     "parameter cache supervise polygons reference_terms camera tomltext driverlog glsltext "
     "difference contract image sheet gonio captions spectrum claims arguments factors scale "
-    "occluders history words notation watch phrases banner timing study",
+    "occluders history words notation watch phrases banner timing study colorimetry",
     "catalog mesh reference_energy tables panels units estimates card legend slide readout labels "
     "advice",
     "ledger formats shapes plots factor_table reference flatten daylight widgets desktop auditor",
@@ -24,7 +24,7 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "scenefile stock hands targets",
     "scene editing",
     "renderer lesson sections opening",
-    "picture options measure views report panel document",
+    "picture options measure views report panel document estimate",
     "hostile measuring falsecolour reflectance deck presenter stage film stopwatch",
     "examine probe bench",
     "audit filming datasheet studies",
