@@ -28,7 +28,7 @@ METALS = {
     True: (("gold", "A"),),
 }
 STEPS = 128  # temperatures, and angles
-REPEATS = 4
+REPEATS = 2
 BLACK_BODY, LAMPS = "black body", "all lamps"
 KRYSTEK, RGB, METAL_RGB = "krystek", "three lines", "rgb"
 NAMES = {"gold": ("gold", "ouro"), "copper": ("copper", "cobre")}
