@@ -41,7 +41,7 @@ def test_a_planted_fast_and_exact_variant_is_the_front():
     found = [*BARGAIN, point("planted", 0.0, 0.2)]
     assert front(found) == ["planted"]
     assert said(found) == [
-        "PLANTED has no error that float32 could avoid, and nothing is cheaper: use it.",
+        "PLANTED has no error to speak of, and nothing is clearly cheaper: use it.",
         "No bargain: EXACT, QUICK.",
     ]
 
@@ -83,6 +83,11 @@ def test_errors_below_what_float32_leaves_are_alike():
 def test_the_default_is_advised_where_nothing_tells_it_from_another():
     found = [point("exact", 3e-7, 1.0, default=True), point("quick", 1e-7, 0.99)]
     assert said(found)[0].startswith("EXACT has no error")
+
+
+def test_errors_that_hardly_differ_leave_the_default():
+    found = [point("exact", 0.00101, 1.0, default=True), point("quick", 0.001, 0.99)]
+    assert said(found)[0].startswith("EXACT errs by 0.001")
 
 
 def test_the_sentence_is_derived_from_the_figures():

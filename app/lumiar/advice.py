@@ -7,25 +7,25 @@ WORDS = {
         "worth": "{pick} costs {more} {unit} more than {rival} and {gain}: use it.",
         "gain": "removes an error of up to {before}",
         "less": "brings the error from {before} down to {after}",
-        "cheapest": "{pick} errs by {after} at most, and nothing is cheaper: use it.",
+        "cheapest": "{pick} errs by {after} at most, and nothing is clearly cheaper: use it.",
         "hidden": "{pick} errs by {after} at most, which does not show, and nothing that exact is"
         " cheaper: use it.",
         "shows": "Its error still shows.",
         "beaten": "No bargain: {names}.",
         "default": "Lumiar's default, {name}, is beaten by {names}.",
-        "no error": "{pick} has no error that float32 could avoid, and nothing is cheaper: use it.",
+        "no error": "{pick} has no error to speak of, and nothing is clearly cheaper: use it.",
     },
     "pt": {
         "worth": "{pick} custa {more} {unit} a mais que {rival} e {gain}: use.",
         "gain": "elimina um erro de até {before}",
         "less": "reduz o erro de {before} para {after}",
-        "cheapest": "{pick} erra no máximo {after}, e nada é mais barato: use.",
+        "cheapest": "{pick} erra no máximo {after}, e nada é claramente mais barato: use.",
         "hidden": "{pick} erra no máximo {after}, o que não se vê, e nada tão exato é mais barato:"
         " use.",
         "shows": "O erro ainda se vê.",
         "beaten": "Não compensa: {names}.",
         "default": "O padrão do Lumiar, {name}, é superado por {names}.",
-        "no error": "{pick} não tem erro que float32 pudesse evitar, e nada é mais barato: use.",
+        "no error": "{pick} não tem erro que conte, e nada é claramente mais barato: use.",
     },
 }
 
@@ -38,7 +38,7 @@ def number(value):
 def chosen(group, metric):
     """Return the point to use: the cheapest of the front whose error does not show.
 
-    Of those that cost about the same the most exact, or Lumiar's own if all are exact; the most
+    Of those that cost about the same the most exact, Lumiar's own if errors are alike; the most
     exact of the front if every error shows.
     None where there is no front.
     """
@@ -50,7 +50,8 @@ def chosen(group, metric):
         return min(front, key=lambda point: (point.error, point.cost))
     least = min(unseen, key=lambda point: point.high)
     alike = [point for point in unseen if not study.cheaper(least, point)]
-    return min(alike, key=lambda p: (max(p.error, metric.floor), not p.default, p.error))
+    exact = study.CLEAR * max(metric.floor, min(point.error for point in alike))
+    return min((p for p in alike if p.error <= exact), key=lambda p: (not p.default, p.error))
 
 
 def sentences(group, metric, names, lang):

@@ -21,9 +21,9 @@ VARIANTS = {  # variant: (model, form)
 OWN = {"lambert": ("albedo",), "oren_nayar": ("albedo", "sigma", "roughness", "form")}
 WORDS = {
     **{f"sigma {s:g}": {"en": f"σ = {s:g}°", "pt": f"σ = {s:g}°"} for s in SIGMAS},
-    "albedo": {"en": "largest error of the albedo", "pt": "maior erro do albedo"},
-    "brdf": {"en": "RMS error of π f over all directions", "pt": "erro RMS de π f nas direções"},
-    "picture": {"en": "RMS error of a sphere's picture", "pt": "erro RMS da imagem de uma esfera"},
+    "albedo": {"en": "albedo", "pt": "albedo"},
+    "brdf": {"en": "BRDF, RMS of π f", "pt": "BRDF, RMS de π f"},
+    "picture": {"en": "picture, RMS", "pt": "imagem, RMS"},
     "lambert": {"en": "Lambert", "pt": "Lambert"},
     "qualitative": {"en": "Oren-Nayar, the slide's", "pt": "Oren-Nayar do slide"},
     "full": {"en": "Oren-Nayar, full", "pt": "Oren-Nayar completo"},

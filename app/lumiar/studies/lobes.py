@@ -46,7 +46,7 @@ def _words():
     }
     return {
         **{case: {"en": said, "pt": said} for case, said in cases.items()},
-        "relative": {"en": "largest relative error", "pt": "maior erro relativo"},
+        "relative": {"en": "relative error", "pt": "erro relativo"},
         "naive": {"en": "as printed", "pt": "como impresso"},
         "stable": {"en": "Lumiar's form", "pt": "a forma do Lumiar"},
     }

@@ -1,4 +1,9 @@
-"""Every model in float32: its error, what of it could be avoided, what hard cases make of it."""
+"""Every model in float32: its error, what of it could be avoided, what hard cases make of it.
+
+relative is the largest relative error on ordinary directions, avoidable what of it at the ends of
+all sliders is beyond three times what the rounding of the input does, broken the share of hostile
+directions whose value is NaN, infinite or negative.
+"""
 
 import numpy as np
 
@@ -26,18 +31,9 @@ WORDS = {
         name: dict.fromkeys(("en", "pt"), catalog.read("model", name).header["model"])
         for name in NAMES
     },
-    "relative": {
-        "en": "largest relative error, default values",
-        "pt": "maior erro relativo, valores padrão",
-    },
-    "avoidable": {
-        "en": "largest relative error at slider ends beyond that of rounded input",
-        "pt": "maior erro relativo nos extremos, além do que vem da entrada arredondada",
-    },
-    "broken": {
-        "en": "share of hard cases that are NaN, infinite or negative",
-        "pt": "fração de casos difíceis que dão NaN, infinito ou negativo",
-    },
+    "relative": {"en": "error, default values", "pt": "erro, valores padrão"},
+    "avoidable": {"en": "avoidable error, slider ends", "pt": "erro evitável, extremos"},
+    "broken": {"en": "hard cases broken", "pt": "casos difíceis quebrados"},
     "lumiar": {"en": "Lumiar's model", "pt": "o modelo do Lumiar"},
     "guarded": {"en": "as printed, with guards", "pt": "como impresso, com proteções"},
     "printed": {"en": "as printed", "pt": "como impresso"},
@@ -52,8 +48,7 @@ def run(bench):
     for name in NAMES:
         for way, errors in _errors(bench, name).items():
             broken[way].append(errors["broken"])
-            default = way == "lumiar" and name != "ward"  # whose default is not the slide's
-            yield from points(name, way, errors, costs[name, way], default=default)
+            yield from points(name, way, errors, costs[name, way], default=way == "lumiar")
     yield _census(max(broken["lumiar"]), broken["printed"])
 
 
