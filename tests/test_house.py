@@ -15,11 +15,7 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "files",
     "parameter cache supervise polygons reference_terms camera tomltext driverlog glsltext "
     "difference contract image sheet gonio captions spectrum claims arguments factors scale "
-<<<<<<< HEAD
-    "occluders history words notation watch phrases banner timing study colorimetry",
-=======
-    "occluders history words notation watch phrases banner clock timing study",
->>>>>>> main
+    "occluders history words notation watch phrases banner clock timing study colorimetry",
     "catalog mesh reference_energy tables panels units estimates card legend slide readout labels "
     "advice codearea",
     "ledger formats shapes plots factor_table reference flatten daylight widgets desktop auditor",
@@ -27,13 +23,8 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "settings factor_card layout content variants navigate overlay",
     "scenefile stock hands targets",
     "scene editing",
-<<<<<<< HEAD
-    "renderer lesson sections opening",
-    "picture options measure views report panel document estimate",
-=======
     "renderer lesson sections opening texts",
-    "picture options measure views report panel document editor",
->>>>>>> main
+    "picture options measure views report panel document editor estimate",
     "hostile measuring falsecolour reflectance deck presenter stage film stopwatch",
     "examine probe bench",
     "audit filming datasheet studies",

@@ -139,7 +139,7 @@ def costs(bench, estimator, jobs, pieces, seconds):
         work = {
             name: estimator.job(pieces, *jobs[name], repeats[name]) for name in jobs if name in some
         }
-        raced = bench.race(work, seconds / 2.0) if work else {}
+        raced = bench.race(work, seconds / 2.0, spread=True) if work else {}
         spent |= {name: one.per(count * repeats[name]) for name, one in raced.items()}
     for name, job in jobs.items():
         if name not in spent:

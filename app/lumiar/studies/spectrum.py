@@ -7,7 +7,6 @@ import numpy as np
 
 from .. import catalog, colorimetry, materials, spectrum, study
 from ..files import ASSETS, GLSL, read_text
-from ..measure import NOTHING, TIMED
 from ..study import Metric, Shown
 
 TITLE = {
@@ -20,7 +19,7 @@ METRICS = {
     UV: Metric(0.0011, 4e-6),  # radius of a step that is just seen: CIE TN 001:2014
     DE: Metric(1.0, 0.005),
 }
-SUMS = {False: (3, 4, 6, 8, 12, 16, 24, 32, 48, 95), True: (3, 8, 24, 95)}
+SUMS = {False: (3, 4, 6, 8, 12, 16, 24, 32, 48, 95), True: (8, 95)}
 FITS = {False: (8, 16, 24, 48, 95), True: (24,)}
 TRIPLES = {False: (1, 2, 4, 8, 16), True: (1, 2, 8)}  # of wavelengths a metal is seen at
 METALS = {
@@ -28,7 +27,6 @@ METALS = {
     True: (("gold", "A"),),
 }
 STEPS = 128  # temperatures, and angles
-REPEATS = 2
 BLACK_BODY, LAMPS = "black body", "all lamps"
 KRYSTEK, RGB, METAL_RGB = "krystek", "three lines", "rgb"
 NAMES = {"gold": ("gold", "ouro"), "copper": ("copper", "cobre")}
@@ -100,7 +98,7 @@ def _black_bodies(bench):
     cosines = np.linspace(0.0, 1.0, STEPS)
     kelvin = 1e6 / (50.0 + 950.0 * cosines.astype(np.float32))
     truth = np.array([spectrum.xyz(spectrum.black_body(float(T))) for T in kelvin])
-    spent = _raced(bench, jobs, 0.7)
+    spent = bench.costs(jobs, SECONDS[quick] * 0.6)
     for name, job in jobs.items():
         xyz = _measured(bench, job, cosines) @ TO_XYZ.T
         off = _apart(xyz, truth)
@@ -117,7 +115,8 @@ def _metals(bench):
         case = f"{metal} {lamp}"
         jobs = {f"{3 * n} bins": (metal_model(metal, lamp, n), {}) for n in TRIPLES[bench.quick]}
         jobs[METAL_RGB] = (metal_model(metal, lamp, 0), {})
-        spent = spent or _raced(bench, jobs, 0.3)  # the tables hold other numbers, no more
+        if not spent:  # the tables of the others hold other numbers, no more
+            spent = bench.costs(jobs, SECONDS[bench.quick] * 0.3)
         cosines = np.linspace(0.0, 1.0, STEPS)
         truth, white = reflected(metal, lamp, cosines.astype(np.float32).astype(float))
         for name, job in jobs.items():
@@ -142,14 +141,6 @@ def together(found):
         own = [p for p in found if (p.variant, p.metric) == (variant, metric)]
         error, default = max(p.error for p in own), variant == METAL_RGB
         yield own[0]._replace(case=LAMPS, error=error, default=default)
-
-
-def _raced(bench, jobs, share):
-    """Return {name: Timing in ns} of jobs {name: (model, values)}; nothing's time is taken off."""
-    work = {name: bench.instrument.timed(*job, REPEATS) for name, job in jobs.items()}
-    work = {"": bench.instrument.timed(*NOTHING, REPEATS), **work}
-    spent = bench.race(work, share * SECONDS[bench.quick], "")
-    return {name: spent[name].per(TIMED[0] ** 2 * REPEATS) for name in jobs}
 
 
 def _measured(bench, job, cosines):
