@@ -6,7 +6,7 @@ from imgui_bundle import imgui
 
 from .words import TEXT
 
-TOOLS = {}  # {name: its key}, in the order of their buttons
+TOOLS = {"plots": "F3"}  # {name: its key}, in the order of their buttons
 WIDE, NARROWEST = 0.34, 18.0  # share of the window, and the least in sizes of letters
 
 
@@ -15,18 +15,20 @@ class Now(NamedTuple):
 
     scene    as edited; what `draw` returns takes its place
     shown    the last one that could be drawn, as framed for the picture; view its (eye, target)
-    picked   pixel (x, y) of the picture that was clicked, or None
+    picked   pixel (x, y) of the picture that was clicked, or None; pointed: that below the mouse
     fault    the line of what is wrong, while something is
     rests    whether nothing has changed for a moment: the time for what takes long
     state    panel.State; words: those of its language
     stage    the picture, with its renderer and context; images: Overlay, see `image` there
     document what is open, and its files
+    left     where the picture begins, in pixels from the left of the window
     """
 
     scene: object
     shown: object
     view: tuple
     picked: tuple | None
+    pointed: tuple | None
     fault: str
     rests: bool
     state: object
@@ -34,6 +36,7 @@ class Now(NamedTuple):
     stage: object
     images: object
     document: object
+    left: int
 
 
 class Drawer:
@@ -88,4 +91,8 @@ class Drawer:
 
 def _made(name, now):
     """Return a tool; what it needs is imported only here."""
+    if name == "plots":
+        from .plotter import Plots
+
+        return Plots(now)
     raise ValueError(name)
