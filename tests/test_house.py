@@ -15,21 +15,22 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "files",
     "parameter cache supervise polygons reference_terms camera tomltext driverlog glsltext "
     "difference contract image sheet gonio captions spectrum claims arguments factors scale "
-    "occluders history words notation watch phrases banner",
-    "catalog mesh reference_energy tables panels units estimates card legend slide readout labels",
-    "formats shapes plots factor_table reference flatten daylight widgets desktop",
+    "occluders history words notation watch phrases banner timing study",
+    "catalog mesh reference_energy tables panels units estimates card legend slide readout labels "
+    "advice",
+    "ledger formats shapes plots factor_table reference flatten daylight widgets desktop auditor",
     "geometry compose parts materials hemisphere surroundings",
     "settings factor_card layout content variants navigate overlay",
-    "scenefile stock hands",
+    "scenefile stock hands targets",
     "scene editing",
     "renderer lesson sections opening",
     "picture options measure views report panel document",
-    "hostile measuring falsecolour reflectance deck presenter stage",
-    "examine probe",
-    "audit",
+    "hostile measuring falsecolour reflectance deck presenter stage stopwatch",
+    "examine probe bench",
+    "audit datasheet studies",
     "drawer",
     "window",
-    "verbs",
+    "verbs benching",
     "lab",
     "cli",
 ]
@@ -53,14 +54,18 @@ HOMES = {  # a heavy library and the modules that may know it
         "desktop",
         "drawer",
         "window",
+        "datasheet",
     },
     "glfw": {"desktop"},
 }
 MODULES = sorted(p for p in APP.rglob("*.py") if p.name not in ("__init__.py", "__main__.py"))
 
 
+PACKAGES = ("formats", "studies")  # folders of modules on one floor, which may know each other
+
+
 def module_name(path):
-    return "formats" if path.parent.name == "formats" else path.stem
+    return path.parent.name if path.parent.name in PACKAGES else path.stem
 
 
 def imports(path):
@@ -101,8 +106,8 @@ def test_imports_only_from_below(path):
     own = module_name(path)
     for name, ours in imports(path):
         first = name.split(".")[0]
-        if ours and first in FLOOR and not (own == "formats" and first in ("formats", own)):
-            inside = own == "formats" and (APP / "formats" / f"{first}.py").exists()
+        if ours and first in FLOOR and first != own:
+            inside = own in PACKAGES and (APP / own / f"{first}.py").exists()
             assert inside or FLOOR[first] < FLOOR[own], f"{own} imports {first}"
         if not ours and first in HOMES:
             assert own in HOMES[first], f"{own} imports {first}"

@@ -5,7 +5,7 @@ import sys
 
 VERBS = (
     *("view", "capture", "probe", "info", "source", "compare"),
-    *("measure", "formfactor", "audit", "lesson", "list"),
+    *("measure", "formfactor", "audit", "bench", "lesson", "list"),
 )
 HELP = """usage: lumiar VERB … (lumiar VERB --help tells more)
 
@@ -18,13 +18,14 @@ HELP = """usage: lumiar VERB … (lumiar VERB --help tells more)
   measure MODEL …  scatter, lobes and albedo of models at any angles: .csv, .npz or a picture
   formfactor       solid angles and form factors of polygons: exact, by Nusselt, by Monte Carlo
   audit [MODEL …]  the data sheet: claims tested, hard cases, float32 error, cost; 1 if broken
+  bench [STUDY …]  speed against error of what Lumiar and others do; a report in a folder
   lesson NAME      a lesson as slides, .png in a folder; a question before each answer
   list             the models, lights, meshes, materials, scenes and lessons there are
 
 SCENE is a shipped scene, a .toml file, a .png that Lumiar made, a mesh or a .glsl model.
-exit codes: 0 done; 1 the renderer or the disk failed, compare found too much, or audit a broken
-claim; 2 a mistake in what was given; 3 broken pixels under --strict; 130 and 143 interrupted and
-terminated"""
+exit codes: 0 done; 1 the renderer or the disk failed, compare found too much, bench --compare
+something worse, or audit a broken claim; 2 a mistake in what was given; 3 broken pixels under
+--strict; 130 and 143 interrupted and terminated"""
 
 
 def main():
@@ -84,7 +85,7 @@ def _dispatch(argv):
         raise Mistake(f"no verb '{argv[0]}'; {nearest(argv[0], VERBS)}")
     from . import arguments
 
-    if argv[0] in ("measure", "formfactor", "audit"):
+    if argv[0] in ("measure", "formfactor", "audit", "bench"):
         from . import lab as verbs
     else:
         from . import verbs

@@ -6,7 +6,7 @@ from imgui_bundle import imgui
 
 from .words import TEXT
 
-TOOLS = {"plots": "F3"}  # {name: its key}, in the order of their buttons
+TOOLS = {"plots": "F3", "sheet": "F4"}  # {name: its key}, in the order of their buttons
 WIDE, NARROWEST = 0.34, 18.0  # share of the window, and the least in sizes of letters
 
 
@@ -43,7 +43,8 @@ class Drawer:
     """The window of ImGui in which the open tool stands; release it.
 
     A tool has `draw(now)`, which draws its widgets and returns the scene, and `release()`. It sets
-    now.state.restless where it has to be drawn once more, though nothing happens.
+    now.state.restless where it has to be drawn once more, though nothing happens; and
+    now.state.wake where that is so at a later moment.
     """
 
     def __init__(self):
@@ -95,4 +96,8 @@ def _made(name, now):
         from .plotter import Plots
 
         return Plots(now)
+    if name == "sheet":
+        from .datasheet import Datasheet
+
+        return Datasheet(now)
     raise ValueError(name)

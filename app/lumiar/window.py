@@ -1,6 +1,7 @@
 """The window: input → next Scene, its picture, the panel on it; drawn only when something moved."""
 
 import itertools
+import math
 import os
 import time
 
@@ -72,11 +73,14 @@ class Viewer:
         """Turn until the window is closed."""
         while not self.desktop.closing:
             wait = 0.0 if self.due else 0.05 if self.document.watch.restless else IDLE
-            self.frame(min(wait, 0.1) if self._lingers(time.monotonic()) else wait)
+            now = time.monotonic()
+            wait = min(wait, 0.1) if self._lingers(now) else wait
+            self.frame(max(0.0, min(wait, self.state.wake - now)))
 
     def frame(self, wait=0.0):
         """Take what came, for up to `wait` seconds; draw if anything moved; return whether."""
         events, now = self.desktop.take(wait), time.monotonic()
+        self.due = max(self.due, now >= self.state.wake)
         saved = self.document.watch.changed(now)
         if events or saved or self.due or self._lingers(now):
             self.desktop.use()
@@ -102,7 +106,7 @@ class Viewer:
         high = glfw.get_window_size(desktop.window)[1] if self.presents else 0
         imgui.get_style().font_size_base = max(high / presenter.LINES, LETTERS * desktop.scale)
         desktop.begin()
-        self.state.restless = False
+        self.state.restless, self.state.wake = False, math.inf
         if self.with_panel:
             self.state.view, self.state.tool = self.stage.view, self.drawer.open
             self.state.able = self.document.history.able
