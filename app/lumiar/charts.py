@@ -90,12 +90,15 @@ class Charts:
         if not implot.begin_plot("##curve", size, _FLAGS):
             return None
         most = _reach(shown)
-        implot.setup_axes(words["view"], words["f"], _FIXED, _FIXED)
+        wide = imgui.calc_text_size(words["view"]).x > 0.85 * size[0]
+        title = words["plots"]["view"] if wide else words["view"]
+        implot.setup_axes(title, words["f"], _FIXED, _FIXED)
         low, high = (scale.low, scale.high) if scale.log else (0.0, 1.02 * scale.high)
         if scale.log:
             implot.setup_axis_scale(implot.ImAxis_.y1.value, implot.Scale_.log10.value)
         implot.setup_axes_limits(-most, most, low, high, implot.Cond_.always)
-        _ticks(implot.ImAxis_.x1, {x: _degrees(x) for x in range(-most, most + 1, most // 3)})
+        step = most // (3 if size[0] > 24.0 * imgui.get_font_size() else 2)
+        _ticks(implot.ImAxis_.x1, {x: _degrees(x) for x in range(-most, most + 1, step)})
         _ticks(implot.ImAxis_.y1, {f: _short(f) for f in scale.ticks()})
         implot.setup_finish()
         for i, mark in enumerate(marks):
@@ -123,7 +126,8 @@ class Charts:
         top = 1.05 * float(min(10.0, max(1.0, *tops, 1.0)))
         implot.setup_axes(*titles, _FIXED, _FIXED)
         implot.setup_axes_limits(0.0, 90.0, 0.0, top, implot.Cond_.always)
-        _ticks(implot.ImAxis_.x1, {x: _degrees(x) for x in range(0, 91, 15)})
+        step = 15 if size[0] > 24.0 * imgui.get_font_size() else 30
+        _ticks(implot.ImAxis_.x1, {x: _degrees(x) for x in range(0, 91, step)})
         implot.setup_finish()
         _line("##one", [0.0, 90.0], [1.0, 1.0], DIM, 1.0)
         for i, mark in enumerate(marks):
@@ -197,8 +201,13 @@ def _rings(scale, most, em):
     for angle in spokes:
         x, y = _toward(angle)
         _text(_degrees(angle), 1.08 * x, 1.08 * y, DIM)
-    for value, r in zip(ticks, radii, strict=True):
-        _text(_short(value), r, 0.0, DIM, (-0.3 * em, 0.75 * em))
+    right = 2.0  # where the label outside begins
+    for value, r in reversed([*zip(ticks, radii, strict=True)]):
+        half = 0.5 * imgui.calc_text_size(_short(value)).x + 0.3 * em
+        half *= 2.0 * EDGE / implot.get_plot_size().x
+        if r + half < right:
+            _text(_short(value), r, 0.0, DIM, (0.0, 0.75 * em))
+            right = r - half
 
 
 def _toward(angle):
@@ -220,7 +229,9 @@ def _upright(mark, x, low, high, row):
     """Draw a line from the foot of a plot to its head, and a Mark's letter there, in its row."""
     em = imgui.get_font_size()
     _line(f"##{mark.letter}", [x, x], [low, high], mark.colour, 1.5)
-    _text(mark.letter, x, high, mark.colour, (0.3 * em + 0.3 * em * len(mark.letter), em * (1 + row)))
+    _text(
+        mark.letter, x, high, mark.colour, (0.3 * em + 0.3 * em * len(mark.letter), em * (1 + row))
+    )
 
 
 def _dot(x, y):

@@ -8,7 +8,7 @@ import numpy as np
 from . import facing, gonio, measuring, panels
 from .errors import Mistake, one_line
 from .measure import Instrument
-from .measuring import INCIDENCE
+from .measuring import INCIDENCE, Chosen
 
 COMPILED = 24  # programs, after which those that nobody shows any more are forgotten
 ANGLES = gonio.steps(0.0, 90.0, 0.5)  # degrees at which a Fresnel reflectance is told
@@ -146,6 +146,37 @@ class Bench:
             self.faults.append(found)
             return None
         return found._replace(label=one.label) if hasattr(found, "label") else found
+
+
+def compared(one, others, same):
+    """Return the Chosen of an Object, and of others: (Shader, values or None, label or "") each.
+
+    Without values of its own a model has its defaults, or, where `same`, what it shares with the
+    object's: values of the same name and kind. No two labels are alike.
+    """
+    models = [Chosen(one.model, one.values, _title(one.model))]
+    for shader, values, label in others:
+        values = values or _values(shader, models[0] if same else None)
+        models.append(Chosen(shader, values, label or _title(shader)))
+    for i, model in enumerate(models):
+        alike = sum(other.label == model.label for other in models[:i])
+        models[i] = model._replace(label=f"{model.label} ({alike + 1})") if alike else model
+    return models
+
+
+def _title(shader):
+    return shader.header.get("model", shader.name)
+
+
+def _values(shader, like):
+    found, theirs = shader.defaults(), {}
+    if like:
+        theirs = {p.name: p for p in like.shader.parameters}
+    for p in shader.parameters:
+        other = theirs.get(p.name)
+        if other and (other.type, other.choices) == (p.type, p.choices):
+            found[p.name] = like.values[p.name]
+    return found
 
 
 def aimed(L, V):

@@ -77,7 +77,10 @@ def png(drawn, lang):
         under = "θₗ {:.1f}°, θᵥ {:.1f}°, φ {:.1f}°".format(*angles)
     elif drawn.kind in ("polar", "curve"):
         under = words["light"].format(round(aim.theta, 1))
-    return plots.single(drawn.kind, title, under, drawn.shown, _points(drawn), lang)
+    shown = drawn.shown
+    if drawn.kind in LOBES:
+        shown = [one._replace(light=round(one.light, 1)) for one in shown]
+    return plots.single(drawn.kind, title, under, shown, _points(drawn), lang)
 
 
 def unused(ending):
@@ -94,7 +97,9 @@ def _points(drawn):
     found = []
     for one in drawn.shown:
         f = np.array([[np.interp(angle, one.angles, channel) for channel in one.f.T]])
-        found.append(panels.Curve(f"V: {one.label}", drawn.aim.theta, np.array([angle]), f))
+        found.append(
+            panels.Curve(f"V: {one.label}", round(drawn.aim.theta, 1), np.array([angle]), f)
+        )
     return found
 
 

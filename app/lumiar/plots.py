@@ -83,11 +83,13 @@ def single(kind, title, subtitle, shown, points, lang):
     shown holds what such a panel has, Curves, Lobes, or Albedos; points: Curves drawn as points.
     """
     words, labels = TEXT[lang], [one.label for one in shown]
+    if points:
+        words = {**words, "plane": words["plots"]["plane"]}
 
     def draw(figure):
         lines = [*shown] if kind in ("polar", "curve") else []
         look = panels.looks(labels, lines, points if lines else ())
-        where = {"left": 0.13, "right": 0.95, "bottom": 0.2, "top": 0.82}
+        where = {"left": 0.13, "right": 0.95, "bottom": 0.25, "top": 0.82}
         place = figure.add_gridspec(1, 1, **where)[0, 0]
         figure.suptitle(one_line(title, 60), fontsize=22, y=0.98)
         _under(figure, subtitle, 90)

@@ -4,10 +4,21 @@ import time
 
 from imgui_bundle import imgui
 
-from . import captions, catalog, charts, curves, facing, files, labels, panels, plotfiles, solids
+from . import (
+    captions,
+    catalog,
+    charts,
+    curves,
+    facing,
+    files,
+    labels,
+    panels,
+    plotfiles,
+    readout,
+    solids,
+)
 from .difference import LUMINANCE
 from .errors import Mistake, one_line
-from .measuring import Chosen
 from .sight import Sight
 
 LIGHT = 45.0  # degrees from the normal, until another angle is asked for
@@ -31,6 +42,7 @@ class Plots:
         self._theta, self._phi, self._light = LIGHT, 0.0, None
         self._same, self._log = False, None
         self._scale, self._scaled, self._changed = None, (), 0.0
+        self._held = False
         self._said = ("", RED)
 
     def release(self):
@@ -48,7 +60,7 @@ class Plots:
         self._bench.turn()
         self.sight.look(now)
         chosen = min(now.state.chosen, len(now.shown.objects) - 1)
-        models = self._models(now.shown.objects[chosen])
+        models = curves.compared(now.shown.objects[chosen], self.others, self._same)
         pixel = self.sight.directions(chosen, self._light)
         aim = curves.Aim(self._theta, self._phi, self._phi)
         if pixel:
@@ -63,20 +75,8 @@ class Plots:
         self._ask_light(now.shown, models[0], words["plots"])
         self._list(models, words["plots"])
         self._save(now.state.lang, words["plots"])
-        moving = time.monotonic() - self._changed < CALM
-        now.state.restless = now.state.restless or self._bench.busy or moving
+        now.state.restless = now.state.restless or self._bench.busy or self._held
         return now.scene
-
-    def _models(self, one):
-        """Return the Chosen of an object, and of what it is compared with."""
-        models = [Chosen(one.model, one.values, _title(one.model))]
-        for shader, values, label in self.others:
-            values = values or _values(shader, models[0] if self._same else None)
-            models.append(Chosen(shader, values, label or _title(shader)))
-        for i, model in enumerate(models):
-            alike = sum(other.label == model.label for other in models[:i])
-            models[i] = model._replace(label=f"{model.label} ({alike + 1})") if alike else model
-        return models
 
     def _measure(self, models, aim, pixel, rests):
         """Measure what the plot shows; settle on a scale."""
@@ -91,6 +91,7 @@ class Plots:
         some = [(one, its) for one, its in zip(models, found, strict=True) if its is not None]
         parts = zip(*some, strict=True) if some else ((), ())
         self.drawn = plotfiles.Drawn(kind, *map(tuple, parts), aim, pixel)
+        self._held = False
         if kind in plotfiles.LOBES:
             self._settle(tuple(one.label for one in models))
 
@@ -109,6 +110,7 @@ class Plots:
         held = self._scale if now - self._changed < CALM else None
         if not held or (wanted.log == held.log and wanted.high > held.high):
             self._scale = wanted
+        self._held = self._scale != wanted
 
     def _plot(self, models, words):
         """Draw what was measured."""
@@ -157,7 +159,7 @@ class Plots:
             _lines(words["at"].format(*sight.pixel, *angles))
             f, off = self.value(models[0]), abs(self.drawn.aim.angle(L)[1])
             if f is not None:
-                _large(f"f(L, V) = {float(f @ LUMINANCE):.4g} sr⁻¹")
+                _large(f"f(L, V) = {readout.number(float(f @ LUMINANCE))} sr⁻¹")
             if L[2] < 0.0 and not models[0].shader.transmits:
                 _lines(words["below"], labels.DIM)
             elif self.kind in ("polar", "curve") and off >= 1.0:
@@ -253,22 +255,6 @@ class Plots:
                 self._said = (one_line(error), RED)
         if self._said[0]:
             _lines(*self._said)
-
-
-def _title(shader):
-    return shader.header.get("model", shader.name)
-
-
-def _values(shader, like):
-    """Return a model's values: those of the same name and kind of another Chosen, else its own."""
-    found = shader.defaults()
-    if like:
-        theirs = {p.name: p for p in like.shader.parameters}
-        for p in shader.parameters:
-            other = theirs.get(p.name)
-            if other and (other.type, other.choices) == (p.type, p.choices):
-                found[p.name] = like.values[p.name]
-    return found
 
 
 def _label(text):

@@ -170,7 +170,7 @@ class Viewer:
         if at[1] > 1:
             page = words["page"].format(*at)
             caption = f"{page}   {caption}".strip()
-        fault = (document.fault or self.fault).replace(os.getcwd() + os.sep, "")
+        fault = (document.fault or self.stage.fault or self.fault).replace(os.getcwd() + os.sep, "")
         fault = f"{fault}\n{words['last']}" if fault else ""
         if not self.with_panel:
             fault = fault or self.state.message
