@@ -7,25 +7,25 @@ WORDS = {
         "worth": "{pick} costs {more} {unit} more than {rival} and {gain}: use it.",
         "gain": "removes an error of up to {before}",
         "less": "brings the error from {before} down to {after}",
-        "cheapest": "{pick} errs by {after} at most, and nothing is cheaper: use it.",
+        "cheapest": "{pick} errs by {after} at most, and nothing is clearly cheaper: use it.",
         "hidden": "{pick} errs by {after} at most, which does not show, and nothing that exact is"
         " cheaper: use it.",
         "shows": "Its error still shows.",
         "beaten": "No bargain: {names}.",
         "default": "Lumiar's default, {name}, is beaten by {names}.",
-        "no error": "{pick} has no error that float32 could avoid, and nothing is cheaper: use it.",
+        "no error": "{pick} has no error to speak of, and nothing is clearly cheaper: use it.",
     },
     "pt": {
         "worth": "{pick} custa {more} {unit} a mais que {rival} e {gain}: use.",
         "gain": "elimina um erro de até {before}",
         "less": "reduz o erro de {before} para {after}",
-        "cheapest": "{pick} erra no máximo {after}, e nada é mais barato: use.",
+        "cheapest": "{pick} erra no máximo {after}, e nada é claramente mais barato: use.",
         "hidden": "{pick} erra no máximo {after}, o que não se vê, e nada tão exato é mais barato:"
         " use.",
         "shows": "O erro ainda se vê.",
         "beaten": "Não compensa: {names}.",
         "default": "O padrão do Lumiar, {name}, é superado por {names}.",
-        "no error": "{pick} não tem erro que float32 pudesse evitar, e nada é mais barato: use.",
+        "no error": "{pick} não tem erro que conte, e nada é claramente mais barato: use.",
     },
 }
 
@@ -81,11 +81,13 @@ def sentences(group, metric, names, lang):
     out[0] = out[0][0].upper() + out[0][1:]
     if pick.error >= metric.visible:
         out.append(words["shows"])
-    beaten = [p for p in group if not p.pareto]
-    if beaten:
-        out.append(words["beaten"].format(names=said(beaten)))
-    for one in beaten:
-        better = [p for p in group if p.pareto and study.dominates(p, one, metric.floor)]
-        if one.default and better:
-            out.append(words["default"].format(name=names[one.variant], names=said(better)))
+    others = [p for p in group if not p.pareto]
+    if others:
+        out.append(words["beaten"].format(names=said(others)))
     return out
+
+
+def beaten(variant, by, names, lang):
+    """Return the sentence on a default that others beat in every metric; see `study.beaten`."""
+    others = ", ".join(names[one] for one in by)
+    return WORDS[lang]["default"].format(name=names[variant], names=others)

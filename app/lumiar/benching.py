@@ -66,7 +66,7 @@ def facts(bench):
         "cores": os.cpu_count(),
         "system": f"{platform.system()} {platform.release()}",
         "python": platform.python_version(),
-        "clock": bench.clocked_by,
+        "clock": bench.clock.said,
         "quick": bench.quick,
     }
 

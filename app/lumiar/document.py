@@ -1,11 +1,14 @@
 """What is open in the window: pages of scenes, their history, and the files they are made from."""
 
 import os
+import time
 
 from . import catalog, opening
 from . import lesson as lessons
+from .clock import Clock
 from .errors import Mistake, one_line
 from .history import History
+from .parts import SCENE
 from .scene import Scene
 from .watch import Watch
 
@@ -22,16 +25,22 @@ class Document:
 
     def __init__(self, scene, name="", path=""):
         self.watch, self._fresh, self._memory = Watch(), {}, {}
+        self.clock, self._running = Clock(SCENE["time"].high), (None, None)
         self.fault, self.history, self._known = "", None, (None, None)
         self.open(scene, name, path)
 
     @property
     def scene(self):
-        """The scene as it is, its shaders as their files are."""
+        """The scene as it is, its shaders as their files are, its time where the clock runs."""
         if self._known[0] is not self.history.scene:
             now = opening.renewed(self.history.scene, self._fresh, self._memory)
             self._known = (self.history.scene, now)
-        return self._known[1]
+        if not self.clock.runs:
+            return self._known[1]
+        still, time = self._known[1], self.clock.time
+        if self._running[0] is not still or self._running[1].time != time:
+            self._running = (still, still._replace(time=time))
+        return self._running[1]
 
     @property
     def caption(self):
@@ -59,8 +68,26 @@ class Document:
     def push(self, scene, key=None):
         """Make a scene the one that is; see `History.push`."""
         if scene is not self.scene:
+            if self.clock.runs and scene.time != self.scene.time:  # set by hand
+                self.clock.start(time.monotonic(), scene.time)
             self.history.push(scene, key)
             self._follow()
+
+    def play(self):
+        """Let the time of the scene run, or stop it where it is, as a step to undo."""
+        if self.clock.runs:
+            scene = self.scene
+            self.clock.stop()
+            self.push(scene)
+        elif uses_time(self.scene):
+            self.clock.start(time.monotonic(), self.scene.time)
+
+    def tick(self, now):
+        """Take that it is now; return whether the time of the scene runs."""
+        if self.clock.runs and not uses_time(self.scene):
+            self.clock.stop()
+        self.clock.tick(now)
+        return self.clock.runs
 
     def undo(self):
         """Go back a step."""
@@ -114,6 +141,7 @@ class Document:
         self.pages = [(shot.caption, shot.scene) for shot in shots] or opening.pages(scene)
 
     def _begin(self):
+        self.clock.stop()
         self.home = self.pages[self.page][1]
         if self.history and not self.stops:
             self.history.push(self.home)
@@ -123,3 +151,8 @@ class Document:
 
     def _follow(self):
         self.watch.follow([*opening.sources(self.scene), *([self.path] if self.path else [])])
+
+
+def uses_time(scene):
+    """Return whether a model or a light of a scene changes with its time."""
+    return any(p.widget == "time" for shader in opening.shaders(scene) for p in shader.parameters)

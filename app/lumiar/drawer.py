@@ -6,7 +6,11 @@ from imgui_bundle import imgui
 
 from .words import TEXT
 
-TOOLS = {"plots": "F3", "sheet": "F4"}  # {name: its key}, in the order of their buttons
+TOOLS = {
+    "plots": "F3",
+    "sheet": "F4",
+    "film": "F8",
+}  # {name: its key}, in the order of their buttons
 WIDE, NARROWEST = 0.34, 18.0  # share of the window, and the least in sizes of letters
 
 
@@ -92,12 +96,16 @@ class Drawer:
 
 def _made(name, now):
     """Return a tool; what it needs is imported only here."""
-    if name == "plots":
-        from .plotter import Plots
-
-        return Plots(now)
     if name == "sheet":
         from .datasheet import Datasheet
 
         return Datasheet(now)
+    if name == "film":
+        from .filming import Filming
+
+        return Filming()
+    if name == "plots":
+        from .plotter import Plots
+
+        return Plots(now)
     raise ValueError(name)

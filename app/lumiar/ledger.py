@@ -22,13 +22,13 @@ CHANGED = 0.10  # share of a cost beyond which it has changed, where the interva
 COLUMNS = ("study", "case", "variant", "metric", "error", "cost", "low", "high", "unit")
 TEXT = {
     "en": {
-        "head": ("", "error", "cost", "interval", ""),
+        "head": ("cost", "interval"),
         "default": "Lumiar's default",
         "front": "* on the front: nothing is both as exact and as cheap; intervals that overlap"
         " are not ranked",
     },
     "pt": {
-        "head": ("", "erro", "custo", "intervalo", ""),
+        "head": ("custo", "intervalo"),
         "default": "padrão do Lumiar",
         "front": "* na fronteira: nada é tão exato e tão barato; intervalos que se sobrepõem não"
         " são ordenados",
@@ -82,32 +82,55 @@ def advised(found, metrics, words):
             for lang in TEXT
         }
         out.append({"case": case, "metric": metric, **said})
+    for case, (default, by) in study.beaten(found, metrics).items():
+        last = [row for row in out if row["case"] == case][-1]
+        for lang in TEXT:
+            last[lang].append(advice.beaten(default, by, _names(words, lang), lang))
     return out
 
 
 def table(one, lang):
-    """Return the lines of a study of a report for people."""
+    """Return the lines of a study of a report for people: a table for each case."""
     names, words = _names(one["words"], lang), TEXT[lang]
-    lines = [one["title"][lang]]
-    advised = {(said["case"], said["metric"]): said[lang] for said in one["advice"]}
-    found = [study.from_row(row) for row in one["points"]]
-    for (case, metric), group in study.grouped(found).items():
-        rows = [words["head"]]
-        for point in sorted(group, key=lambda p: p.cost):
-            error = "" if point.error is None else advice.number(point.error)
-            cost, low, high = (f"{x:.3g}" for x in (point.cost, point.low, point.high))
-            mark = "* " if point.pareto else "  "
-            default = f" ({words['default']})" * point.default
-            name = mark + names[point.variant] + default
-            rows.append((name, error, f"{cost} {point.unit}", f"{low} … {high}", ""))
-        widths = [max(len(row[i]) for row in rows) for i in range(4)]
-        lines += ["", f"{names[case]}: {names[metric]}"]
-        for row in rows:
-            cells = (cell.rjust(w) for cell, w in zip(row[1:4], widths[1:], strict=True))
-            lines.append(f"  {row[0]:{widths[0]}}  {'  '.join(cells)}".rstrip())
-        lines += [f"  {said}" for said in advised.get((case, metric), ())]
-    lines += [f"  {said[lang]}" for said in one["remarks"]]
-    return "\n".join(lines)
+    lines, cases = [one["title"][lang]], {}
+    for row in one["points"]:
+        cases.setdefault(row["case"], []).append(study.from_row(row))
+    for case, found in cases.items():
+        metrics = list(dict.fromkeys(point.metric for point in found))
+        lines += ["", names[case], *_aligned(_rows(found, metrics, names, words))]
+        for said in (said for said in one["advice"] if said["case"] == case and said[lang]):
+            what = f"{names[said['metric']]}: " * (len(metrics) > 1)
+            lines.append(f"  {what}{' '.join(said[lang])}")
+    return "\n".join([*lines, *(f"  {said[lang]}" for said in one["remarks"])])
+
+
+def _rows(found, metrics, names, words):
+    """Yield the rows of a case's table: a variant, its error in each metric, its cost."""
+    yield ("", *(names[metric] for metric in metrics), *words["head"])
+    variants = {}
+    for point in sorted(found, key=lambda p: p.cost):
+        variants.setdefault(point.variant, {})[point.metric] = point
+    for name, own in variants.items():
+        point = next(iter(own.values()))
+        errors = [_error(own.get(metric)) for metric in metrics]
+        cost, low, high = (f"{x:.3g}" for x in (point.cost, point.low, point.high))
+        label = names[name] + f" ({words['default']})" * point.default
+        yield (label, *errors, f"{cost} {point.unit}", f"{low} … {high}")
+
+
+def _error(point):
+    if point is None or point.error is None:
+        return " "
+    return advice.number(point.error) + (" *" if point.pareto else "  ")
+
+
+def _aligned(rows):
+    """Yield the lines of rows of cells, the first column to the left."""
+    rows = list(rows)
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for first, *others in rows:
+        cells = (cell.rjust(w) for cell, w in zip(others, widths[1:], strict=True))
+        yield f"  {first:{widths[0]}}  {'  '.join(cells)}".rstrip()
 
 
 def changes(old, new):

@@ -109,17 +109,17 @@ class Instrument(OnCard):
         They race each other and an empty model, whose time is taken off, for about so many seconds,
         on directions that are all above the surface. clock: `timing.believed`'s, unless given.
         """
-        clock = clock or timing.believed(self.context, [self.timed(*NOTHING, 64)])[0]
+        clock = clock or timing.believed(self.context, [self.timed(*NOTHING, 64)])
         runs, count = self.racers(jobs, clock)
-        found = timing.race(runs, clock, seconds, empty=0, alike=True)
+        found = timing.race(runs, clock, seconds, empty=0, spread=True)
         return [one.per(count) for one in found[1:]]
 
     def racers(self, jobs, clock):
         """Return [job, …] of a run of the empty model and of each (model, values), evaluations."""
         if not self._repeats:  # a run long enough to be timed, whatever the card
             self._repeats = TIMED[1]
-            clock(self.timed(*NOTHING))
-            while clock(self.timed(*NOTHING))[1] < LONG and self._repeats < 1 << 14:
+            clock.time(self.timed(*NOTHING))
+            while clock.time(self.timed(*NOTHING))[1] < LONG and self._repeats < 1 << 14:
                 self._repeats *= 2
         return [self.timed(*job) for job in (NOTHING, *jobs)], TIMED[0] ** 2 * self._repeats
 
@@ -185,7 +185,12 @@ class Instrument(OnCard):
         for name, value in layout.packed(model, values, 0.0, "").items():
             if name in program:
                 program[name].write(value)
-        for name, value in (("rig_L", 0), ("rig_V", 1), ("rig_repeats", repeats)):
+        for name, value in (
+            ("rig_L", 0),
+            ("rig_V", 1),
+            ("rig_repeats", repeats),
+            ("rig_tiny", 1e-30),
+        ):
             if name in program:
                 program[name].value = value
         self.context.enable_only(0)

@@ -27,8 +27,9 @@ class State:
     restless  whether it has to be drawn once more, until all has its size
     wake      when, by time.monotonic, it has to be drawn once more though nothing happens
     tools     the names of those that the window has, and tool the open one
-    wish      what a button asks the window for: "undo", "redo", or one of the tools
+    wish      what a button asks the window for: "undo", "redo", "play", or one of the tools
     able      which of undo and redo would do something
+    runs      whether the time of the scene does
     """
 
     lang: str = ""
@@ -44,6 +45,7 @@ class State:
     tool: str = ""
     wish: str = ""
     able: tuple = ()
+    runs: bool = False
 
 
 def prepare(size=16.0):

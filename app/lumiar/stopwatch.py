@@ -39,11 +39,12 @@ class Stopwatch(OnCard):
         """
         if not self._clock:
             picture = self._drawing(scene, renderer)
-            self._clock, self.clock = timing.believed(self.context, [picture])
+            self._clock = timing.believed(self.context, [picture])
+            self.clock = self._clock.said
         elif not self._pictures and cost > ENOUGH:
             self._pictures, self.picture = [cost], cost
         elif sum(self._pictures) < ENOUGH and len(self._pictures) < ROUNDS:
-            self._pictures.append(self._clock(self._drawing(scene, renderer))[1])
+            self._pictures.append(self._clock.time(self._drawing(scene, renderer))[1])
             self.picture = statistics.median(self._pictures)
         elif model and len(self._rounds) < ROUNDS:
             self._race(model, values)
@@ -56,11 +57,11 @@ class Stopwatch(OnCard):
         lambert = catalog.read("model", "lambert")
         jobs = (model, values), (lambert, lambert.defaults())
         runs, count = self._instrument.racers(jobs, self._clock)
-        times = [self._clock(run) for run in runs]
+        times = [self._clock.time(run) for run in runs]
         if self.evaluation is None:  # that round compiled
-            times = [self._clock(run) for run in runs]
+            times = [self._clock.time(run) for run in runs]
         self._rounds.append(times)
-        found = timing.settled(self._rounds, empty=0, alike=True)
+        found = timing.settled(self._rounds, empty=0, cores=self._clock.cores)
         self.evaluation = tuple(max(0.0, one.per(count).cost) for one in found[1:])
 
     def _drawing(self, scene, renderer):

@@ -4,6 +4,7 @@ import itertools
 from typing import NamedTuple
 
 ALIKE = 1.25  # ratio of costs up to which a lower error decides
+CLEAR = 1.05  # ratio of errors from which one is the lower, where the costs are alike
 FLOAT = 4e-6  # relative error that float32 leaves in a good formula; what is below is alike
 
 
@@ -91,7 +92,7 @@ def dominates(a, b, floor):
     if a.error is None or b.error is None:
         return False
     one, other = max(a.error, floor), max(b.error, floor)
-    return (cheaper(a, b) and one <= other) or (alike(a, b) and one < other)
+    return (cheaper(a, b) and one <= other) or (alike(a, b) and one * CLEAR < other)
 
 
 def marked(found, metrics):
@@ -103,6 +104,36 @@ def marked(found, metrics):
             best = point.error is not None and not beaten
             done[case, name, point.variant] = point._replace(pareto=best)
     return [done[p.case, p.metric, p.variant] for p in found]
+
+
+def beaten(found, metrics):
+    """Return {case: (default, those that beat it)} where some do, whatever the metric.
+
+    They are better in one metric, and in the others neither less exact nor dearer.
+    """
+    cases, out = {}, {}
+    for point in found:
+        cases.setdefault(point.case, {}).setdefault(point.variant, {})[point.metric] = point
+    for case, variants in cases.items():
+        for name, own in variants.items():
+            if not next(iter(own.values())).default:
+                continue
+            by = [other for other, its in variants.items() if _better(its, own, metrics)]
+            if by:
+                out[case] = name, by
+    return out
+
+
+def _better(its, own, metrics):
+    pairs = [(its[m], point, metrics[m].floor) for m, point in own.items() if m in its]
+    no_worse = all(
+        a.error is not None
+        and b.error is not None
+        and max(a.error, floor) <= CLEAR * max(b.error, floor)
+        and not cheaper(b, a)
+        for a, b, floor in pairs
+    )
+    return no_worse and any(dominates(*pair) for pair in pairs)
 
 
 def in_order(found):

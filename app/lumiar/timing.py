@@ -9,6 +9,7 @@ draws, the time that it worked is taken, not the time that it waited for its tur
 import math
 import os
 import time
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -40,44 +41,58 @@ class Timing(NamedTuple):
         )
 
 
-def race(jobs, clock, seconds, empty=None, alike=False):
+class Clock(NamedTuple):
+    """A clock: said is what it is; time(job) does a job and returns (seconds spent, passed).
+
+    cores is on how many of them what was spent is spread at most.
+    """
+
+    said: str
+    cores: int
+    time: Callable
+
+
+def race(jobs, clock, seconds, empty=None, spread=False):
     """Return a Timing for each of the callables, all interleaved for about so many seconds.
 
-    clock(job) does the job and returns (seconds spent, seconds passed), see `believed`. empty is
-    the index of the job that does what all others do besides; its time is taken off the others',
-    round by round, and its own Timing is the whole of it. alike: all jobs spread over the cores
-    alike. A busy machine gets PATIENCE times the seconds.
+    clock is a Clock, see `believed`. empty is the index of the job that does what all others do
+    besides; its time is taken off the others', round by round, and its own Timing is the whole of
+    it. spread: all jobs are evenly spread over the cores. A busy machine gets PATIENCE times the
+    seconds.
     """
+    cores = clock.cores if spread else None
     for job in jobs:
-        clock(job)  # compiles, and warms caches
+        clock.time(job)  # compiles, and warms caches
     times, start = [], time.perf_counter()
     while len(times) < ROUNDS[1]:
         spent = time.perf_counter() - start
         if len(times) >= ROUNDS[0] and spent > seconds:
-            found, clear = _settled(times, empty, alike)
+            found, clear = _settled(times, empty, cores)
             if clear or spent > PATIENCE * seconds:
                 return found
         first = len(times) % len(jobs)
         row = [(0.0, 0.0)] * len(jobs)
         for i in (*range(first, len(jobs)), *range(first)):
-            row[i] = clock(jobs[i])
+            row[i] = clock.time(jobs[i])
             if row[i][0] < 0.05:  # the less of two: what disturbs only adds
-                row[i] = min(row[i], clock(jobs[i]))
+                row[i] = min(row[i], clock.time(jobs[i]))
         times.append(row)
-    return settled(times, empty, alike)
+    return settled(times, empty, cores)
 
 
-def settled(times, empty=None, alike=False):
-    """Return a Timing for each job from (rounds, jobs, 2): seconds spent and passed; see `race`."""
-    return _settled(times, empty, alike)[0]
+def settled(times, empty=None, cores=None):
+    """Return a Timing for each job from (rounds, jobs, 2): seconds spent and passed; see `race`.
+
+    cores: of how many all jobs make full use.
+    """
+    return _settled(times, empty, cores)[0]
 
 
-def _settled(times, empty, alike):
+def _settled(times, empty, cores):
     """Return the Timings, and whether no interval is wider than the drift between runs."""
     spent, passed = np.moveaxis(np.maximum(np.asarray(times, np.float64), 1e-12), 2, 0)
     # how much of the time spent has to pass, where nothing disturbs: 1, or less on several cores
-    share = (passed / spent).min(axis=0)
-    spent = spent * (share.min() if alike else share)
+    spent = spent * (1.0 / cores if cores else (passed / spent).min(axis=0))
     logs = np.log(spent)
     slow = np.median(logs - np.median(logs, axis=0), axis=1)  # each round, against the usual
     steady = spent / np.exp(slow)[:, None]
@@ -106,16 +121,18 @@ def _interval(values):
 
 def wall(context):
     """Return the wall's clock, around a job and the end of all that a moderngl context draws."""
-    return _around(context, time.perf_counter, 1)
+    return Clock("wall clock", 1, _around(context, time.perf_counter, 1))
 
 
 def processor(context):
     """Return a clock of the time that this process worked, on all cores, and of the wall's."""
-    return _around(context, time.process_time, os.cpu_count() or 1)
+    cores = os.cpu_count() or 1
+    said = f"processor time, spread over {cores} cores"
+    return Clock(said, cores, _around(context, time.process_time, cores))
 
 
 def _around(context, now, cores):
-    def clock(job):
+    def measure(job):
         _finish(context)
         start, worked = time.perf_counter(), now()
         job()
@@ -123,7 +140,7 @@ def _around(context, now, cores):
         spent, passed = now() - worked, time.perf_counter() - start
         return spent, (passed if cores == 1 else max(passed, spent / cores))
 
-    return clock
+    return measure
 
 
 def queries(context):
@@ -131,7 +148,7 @@ def queries(context):
     with context:
         query = context.query(time=True)
 
-    def clock(job):
+    def measure(job):
         with context:  # which does not nest, and the job may open it too
             query.__enter__()
         job()
@@ -139,7 +156,7 @@ def queries(context):
             query.__exit__(None, None, None)
             return (query.elapsed * 1e-9,) * 2
 
-    return clock
+    return Clock("timer queries", 1, measure)
 
 
 def _finish(context):
@@ -148,7 +165,7 @@ def _finish(context):
 
 
 def believed(context, loads):
-    """Return (clock, what it is): the one to believe with the renderer of a moderngl context.
+    """Return the Clock to believe with the renderer of a moderngl context.
 
     Where the processor draws: the time it worked, times the share that passes when undisturbed. On
     a graphics card its own timer queries, if they agree with the wall's clock on every one of the
@@ -157,20 +174,28 @@ def believed(context, loads):
     with context:
         name = context.info["GL_RENDERER"]
     if any(word in name.lower() for word in SOFTWARE):
-        return processor(context), f"processor time, spread over {os.cpu_count()} cores"
+        return processor(context)
     by_wall, card = wall(context), queries(context)
     worst = 0.0
     for load in loads:
         times = 1
-        by_wall(load)
-        while by_wall(_often(load, times))[0] < 0.02 and times < 1 << 12:
+        by_wall.time(load)
+        while by_wall.time(_often(load, times))[0] < 0.02 and times < 1 << 12:
             times *= 2  # so often that the way to the card and back does not count
-        job = _often(load, times)
-        pairs = [(by_wall(job)[0], card(job)[0]) for _ in range(5)]
-        worst = max(worst, float(np.median([abs(told / true - 1.0) for true, told in pairs])))
+        off = []
+        for _ in range(5):
+            told = []  # by the card, of the very run that the wall's clock is told to time
+            passed, _ = by_wall.time(_told(told, card, _often(load, times)))
+            off.append(abs(told[0] / passed - 1.0))
+        worst = max(worst, float(np.median(off)))
     if worst <= SANE:
-        return card, f"timer queries, within {worst:.1%} of the wall clock"
-    return by_wall, f"wall clock: timer queries are {worst:.0%} off it"
+        return card._replace(said=f"timer queries, within {worst:.1%} of the wall clock")
+    return by_wall._replace(said=f"wall clock: timer queries are {worst:.0%} off it")
+
+
+def _told(told, clock, job):
+    """Return the job of doing a job and noting what a clock says of it."""
+    return lambda: told.append(clock.time(job)[0])
 
 
 def _often(job, times):

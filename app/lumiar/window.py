@@ -1,6 +1,5 @@
 """The window: input → next Scene, its picture, the panel on it; drawn only when something moved."""
 
-import itertools
 import math
 import os
 import time
@@ -12,6 +11,7 @@ from .desktop import LETTERS, Desktop, glfw
 from .document import Document
 from .drawer import TOOLS, Drawer, Now
 from .errors import Mistake, one_line
+from .files import unused
 from .overlay import Overlay
 from .phrases import TEXT
 from .stage import REST, Stage
@@ -81,6 +81,8 @@ class Viewer:
         """Take what came, for up to `wait` seconds; draw if anything moved; return whether."""
         events, now = self.desktop.take(wait), time.monotonic()
         self.due = max(self.due, now >= self.state.wake)
+        if self.document.tick(now):
+            self.due, self.moved = max(self.due, 1), now
         saved = self.document.watch.changed(now)
         if events or saved or self.due or self._lingers(now):
             self.desktop.use()
@@ -109,7 +111,7 @@ class Viewer:
         self.state.restless, self.state.wake = False, math.inf
         if self.with_panel:
             self.state.view, self.state.tool = self.stage.view, self.drawer.open
-            self.state.able = self.document.history.able
+            self.state.able, self.state.runs = self.document.history.able, self.document.clock.runs
             parts = self.presenter.parts(self.document.stop) if self.presents else panel.ALL
             self._push(panel.draw(self.scene, self.state, parts), self.state.gesture)
             self._wish()
@@ -233,6 +235,8 @@ class Viewer:
             self._push(self.scene._replace(camera=document.home.camera))
         elif key in _TURNS:
             document.turn(_TURNS[key])
+        elif key == glfw.KEY_SPACE:
+            document.play()
         elif key == glfw.KEY_P:
             self.presents = not self.presents
         elif key in _TOOL_KEYS:
@@ -259,8 +263,7 @@ class Viewer:
             self._tell("reloaded", ", ".join(names))
 
     def _screenshot(self):
-        paths = (f"lumiar-{i:03}.png" for i in itertools.count(1))
-        path = next(path for path in paths if not os.path.exists(path))
+        path = unused("lumiar", ".png")
         try:
             picture.write(self.stage.shown, path, self.stage.renderer)
         except (Mistake, OSError) as error:

@@ -6,8 +6,10 @@
 #include "lib/fresnel.glsl"
 
 uniform float eta = 1.5;                       // [0.25, 4]: index behind the interface over the one before it
-uniform vec3 f0 = vec3(0.04);                  // color: reflectance at normal incidence; a dielectric's is grey
-uniform vec3 f82 = vec3(0.4);                  // color: reflectance at cos = 1/7
+uniform float grey = 0.04;                     // [0, 1]: its reflectance at normal incidence
+uniform float grey82 = 0.4;                    // [0, 1]: the same at cos = 1/7
+uniform vec3 f0 = vec3(1.0, 0.71, 0.29);       // color: reflectance of a metal at normal incidence
+uniform vec3 f82 = vec3(0.966, 0.858, 0.661);  // color: the same at cos = 1/7
 uniform vec3 index = vec3(0.14, 0.503, 1.428); // [0, 10]: index of refraction of a metal (unitless)
 uniform vec3 k = vec3(3.702, 2.312, 1.937);    // [0, 12]: its extinction coefficient (unitless)
 uniform bool metal = false;                    // toggle: a metal, in three colours
@@ -45,7 +47,7 @@ vec3 F_metal(float c, vec3 n, vec3 k) {
 
 vec3 scatter(vec3 L, vec3 V) {
     float c = min(L.z, 1.0);
-    vec3 r0 = metal ? f0 : vec3(f0.x), r82 = metal ? f82 : vec3(f82.x);
+    vec3 r0 = metal ? f0 : vec3(grey), r82 = metal ? f82 : vec3(grey82);
     if (form == FORM_EXACT) return metal ? 1.0 - A_conductor(c, index, k) : vec3(F_dielectric(c, eta).x);
     if (form == FORM_TEXTBOOK) return metal ? F_metal(c, index, k) : vec3(F_textbook(c, eta));
     if (form == FORM_G_FORM) return vec3(F_g_form(c, eta));

@@ -9,6 +9,9 @@ from importlib import import_module
 
 NAMES = (  # in the order of a report
     "fresnel",
+    "lobes",
+    "diffuse",
+    "precision",
 )
 
 
