@@ -15,16 +15,17 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "files",
     "parameter cache supervise polygons reference_terms camera tomltext driverlog glsltext "
     "difference contract image sheet gonio captions spectrum claims arguments factors scale "
-    "occluders history words notation watch phrases banner clock timing study",
+    "occluders history words notation watch phrases banner clock timing study bilingual",
     "catalog mesh reference_energy tables panels units estimates card legend slide readout labels "
-    "advice",
-    "ledger formats shapes plots factor_table reference flatten daylight widgets desktop auditor",
-    "geometry compose parts materials hemisphere surroundings",
+    "advice chart codearea plates",
+    "ledger formats shapes plots factor_table reference flatten daylight widgets desktop auditor "
+    "figures",
+    "geometry compose parts materials hemisphere surroundings page",
     "settings factor_card layout content variants navigate overlay",
     "scenefile stock hands targets facing",
     "scene editing sight charts",
-    "renderer lesson sections opening solids",
-    "picture options measure views report panel document",
+    "renderer lesson sections opening texts solids",
+    "picture options measure views report panel document editor",
     "hostile measuring falsecolour reflectance deck presenter stage film stopwatch",
     "examine probe bench curves plotfiles",
     "audit filming datasheet studies plotter",
@@ -51,6 +52,8 @@ HOMES = {  # a heavy library and the modules that may know it
         "presenter",
         "overlay",
         "banner",
+        "codearea",
+        "editor",
         "desktop",
         "drawer",
         "window",

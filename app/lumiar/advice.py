@@ -1,6 +1,7 @@
 """What the points of one case and metric advise, in a sentence or two, derived from them alone."""
 
 from . import study
+from .notation import number
 
 WORDS = {
     "en": {
@@ -30,15 +31,10 @@ WORDS = {
 }
 
 
-def number(value):
-    """Return a number in words of two digits."""
-    return f"{float(f'{value:.2g}'):g}"
-
-
 def chosen(group, metric):
     """Return the point to use: the cheapest of the front whose error does not show.
 
-    Of those that cost about the same the most exact, or Lumiar's own if all are exact; the most
+    Of those that cost about the same the most exact, Lumiar's own if errors are alike; the most
     exact of the front if every error shows.
     None where there is no front.
     """
@@ -50,7 +46,8 @@ def chosen(group, metric):
         return min(front, key=lambda point: (point.error, point.cost))
     least = min(unseen, key=lambda point: point.high)
     alike = [point for point in unseen if not study.cheaper(least, point)]
-    return min(alike, key=lambda p: (max(p.error, metric.floor), not p.default, p.error))
+    exact = study.CLEAR * max(metric.floor, min(point.error for point in alike))
+    return min((p for p in alike if p.error <= exact), key=lambda p: (not p.default, p.error))
 
 
 def sentences(group, metric, names, lang):
@@ -66,11 +63,11 @@ def sentences(group, metric, names, lang):
         return ", ".join(names[p.variant] for p in sorted(points, key=lambda p: p.error))
 
     rivals = [p for p in group if p.pareto and study.cheaper(p, pick) and p.error > pick.error]
-    facts = {"pick": names[pick.variant], "after": number(pick.error), "unit": pick.unit}
+    facts = {"pick": names[pick.variant], "after": number(pick.error, 2, lang), "unit": pick.unit}
     if rivals:
         rival = min(rivals, key=lambda p: p.error)
-        facts |= {"rival": names[rival.variant], "before": number(rival.error)}
-        facts["more"] = number(pick.cost - rival.cost)
+        facts |= {"rival": names[rival.variant], "before": number(rival.error, 2, lang)}
+        facts["more"] = number(pick.cost - rival.cost, 2, lang)
         small = pick.error < max(metric.floor, 0.02 * rival.error)
         facts["gain"] = words["gain" if small else "less"].format(**facts)
         out = [words["worth"].format(**facts)]

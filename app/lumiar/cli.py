@@ -51,11 +51,12 @@ def run(argv):
     """Run a command line in this process and return its exit code."""
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # NumPy then starts sooner; ours is small
     from .errors import Mistake, one_line
+    from .files import shortened
 
     try:
         return _dispatch(argv)
     except Mistake as mistake:
-        print(f"lumiar: {one_line(_shortened(str(mistake)))}", file=sys.stderr)
+        print(f"lumiar: {one_line(shortened(str(mistake)))}", file=sys.stderr)
         return 2
     except BrokenPipeError:
         raise  # not our disk: whoever read our output has gone, and supervise ends quietly
@@ -103,12 +104,3 @@ def _own_fault(error):
     said = one_line(f"{type(error).__name__}: {error}")
     print(f"lumiar: a fault of Lumiar's own, at {place}: {said}; please report it", file=sys.stderr)
     return 1
-
-
-def _shortened(message):
-    """Return a message with the paths of shipped shaders and of this folder made short."""
-    from .files import GLSL
-
-    for folder in (GLSL, os.getcwd()):
-        message = message.replace(folder + os.sep, "")
-    return message

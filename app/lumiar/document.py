@@ -1,16 +1,21 @@
 """What is open in the window: pages of scenes, their history, and the files they are made from."""
 
 import os
+import re
 import time
 
-from . import catalog, opening
 from . import lesson as lessons
+from . import opening
 from .clock import Clock
 from .errors import Mistake, one_line
 from .history import History
 from .parts import SCENE
 from .scene import Scene
+from .texts import Texts, ships
 from .watch import Watch
+
+QUIET = 0.3  # seconds without a key before what is typed is looked at
+_AT_FAULT = re.compile(r"(.+?\.(?:glsl|toml)):")
 
 
 class Document:
@@ -20,20 +25,53 @@ class Document:
     name    of the scene, and path that of its file, or ""
     home    the scene as it was opened; pages and page: (captions, Scene) of a sheet, and which
     stops   of a lesson, one for each page, else []
-    fault   the line of what is wrong in a file, until it is put right
+    texts   what is edited and not saved, and what is wrong in which file; restored: as it was left
     """
 
-    def __init__(self, scene, name="", path=""):
-        self.watch, self._fresh, self._memory = Watch(), {}, {}
+    def __init__(self, scene, name="", path="", restored=False):
+        self.watch, self.texts, self._memory = Watch(), Texts(restored), {}
         self.clock, self._running = Clock(SCENE["time"].high), (None, None)
-        self.fault, self.history, self._known = "", None, (None, None)
+        self.history, self._known, self._typed, self._waiting = None, (None, None), {}, None
         self.open(scene, name, path)
+        self._read(self.texts.drafts)
+
+    @staticmethod
+    def expecting(load, name, path, mistake):
+        """Return a Document of a scene whose file has a mistake, opened once that is put right.
+
+        load() returns the scene. Until then the default scene is in its place. Raises the mistake
+        where it names no file that could be edited.
+        """
+        if not _at_fault(mistake):
+            raise mistake
+        document = Document(Scene.default())
+        document._expect(load, name, path, mistake)
+        return document
+
+    @property
+    def fault(self):
+        """The line of what is wrong in a file of the scene, until it is put right."""
+        faults = self.texts.faults
+        return next((faults[path] for path in ("", *self.files) if path in faults), "")
+
+    @property
+    def awaits(self):
+        """Whether a file has to be put right before its scene can be opened."""
+        return self._waiting is not None
+
+    @property
+    def files(self):
+        """The paths of the files that hold text: awaited, of the scene, its models and lights."""
+        awaited = [self._waiting[-1]] if self._waiting else []
+        own = [self.path] if self.path else []
+        shaders = [shader.path for shader in opening.shaders(self.scene)]
+        return [*dict.fromkeys((*awaited, *own, *shaders))]
 
     @property
     def scene(self):
         """The scene as it is, its shaders as their files are, its time where the clock runs."""
         if self._known[0] is not self.history.scene:
-            now = opening.renewed(self.history.scene, self._fresh, self._memory)
+            now = opening.renewed(self.history.scene, self.texts.fresh, self._memory)
             self._known = (self.history.scene, now)
         if not self.clock.runs:
             return self._known[1]
@@ -68,6 +106,7 @@ class Document:
     def push(self, scene, key=None):
         """Make a scene the one that is; see `History.push`."""
         if scene is not self.scene:
+            self.texts.faults.pop("", None)
             if self.clock.runs and scene.time != self.scene.time:  # set by hand
                 self.clock.start(time.monotonic(), scene.time)
             self.history.push(scene, key)
@@ -108,31 +147,95 @@ class Document:
                 self.open(scene, os.path.splitext(os.path.basename(path))[0], path)
             else:
                 self.push(scene)
-            self.fault = ""
+            self.texts.faults.pop("", None)
         except (Mistake, OSError) as mistake:
-            self.fault = one_line(mistake)
+            self.texts.faults[""] = one_line(mistake)
 
     def reload(self, paths=None):
         """Read files again that were saved, or all; return the names of those that could be."""
-        own = {self.path} if self.path else set()
-        paths = {*opening.sources(self.scene), *own} if paths is None else set(paths)
+        paths = {*self._followed} if paths is None else {*paths}
+        if self._waiting and self._waiting[-1] in paths:
+            self._expect(*self._waiting[:3])
+        if self.path in paths:
+            self._load_again()
+        files = self.texts.saved(paths)
+        self.texts.faults.pop("", None)
+        self._read(files)
+        faults = self.texts.faults
+        return sorted(os.path.basename(path) for path in files if path not in faults)
+
+    def edit(self, path, text, now):
+        """Take what is typed for a file, without saving it; now in seconds."""
+        self.texts.edit(path, text)
+        self._typed[path] = now
+
+    def look(self, now, at_once=False):
+        """Have what was typed in the scene, once it rests; return whether there was anything."""
+        quiet = [path for path, at in self._typed.items() if at_once or now - at >= QUIET]
+        for path in quiet:
+            del self._typed[path]
+        if quiet:
+            self._read(quiet)
+        return bool(quiet)
+
+    def revert(self, path):
+        """Have a file as it is saved, not as edited."""
+        self.texts.forget(path)
+        self._read([path])
+
+    def take_up(self, path):
+        """Have a file as edited when the last window was closed."""
+        self.texts.take(path)
+        self._read([path])
+
+    def rename(self, path, copy):
+        """Have the scene use a copy, just written, of the file of a model or a light."""
+        self.texts.forget(path)
+        fresh = self.texts.fresh.pop(path, None)
+        scene = opening.renamed(self.scene, path, copy)
+        self._known = (None, None)
+        if fresh:
+            self.texts.fresh[copy] = fresh._replace(name=copy, path=copy)
+        self.push(scene)
+        self._read([copy])
+
+    def _read(self, paths):
+        """Read those Shaders of the scene again that are files of such paths, or include them."""
+        texts = self.texts
+        for shader in {one.path: one for one in opening.shaders(self.scene)}.values():
+            if shader.path in paths or not texts.libraries([shader]).isdisjoint(paths):
+                made = texts.read(shader, paths)
+                texts.fresh |= {made.path: made} if made else {}
+        self._known = (None, None)
+        self._follow()
+
+    def _load_again(self):
+        """Read the file of the scene again."""
         try:
-            if paths & own:
-                is_lesson = lessons.is_lesson(self.path)
-                self._take((lessons.load if is_lesson else Scene.load)(self.path))
-                self.page = min(self.page, len(self.pages) - 1)
-                self._begin()
-            shaders = {
-                shader.path: catalog.read(shader.kind, shader.name)
-                for shader in opening.shaders(self.scene)
-                if shader.path in paths
-            }
+            is_lesson = lessons.is_lesson(self.path)
+            self._take((lessons.load if is_lesson else Scene.load)(self.path))
         except Mistake as mistake:
-            self.fault = one_line(mistake)
-            return []
-        self._fresh |= shaders
-        self._known, self.fault = (None, None), ""
-        return sorted(map(os.path.basename, paths))
+            self.texts.faults[self.path] = one_line(mistake)
+            return
+        self.texts.faults.pop(self.path, None)
+        self.page = min(self.page, len(self.pages) - 1)
+        self._begin()
+
+    def _expect(self, load, name, path, mistake=None):
+        """Open the scene that load() returns; where it has a mistake, keep waiting for it."""
+        if self._waiting:
+            self.texts.faults.pop(self._waiting[-1], None)
+        if not mistake:
+            try:
+                self.open(load(), name, path)
+                self._waiting = None
+                return
+            except Mistake as again:
+                mistake = again
+        file = _at_fault(mistake) or self._waiting[-1]
+        self.texts.faults[file] = one_line(mistake)
+        self._waiting = (load, name, path, file)
+        self._follow()
 
     def _take(self, scene):
         """Take the pages of a Scene or of a Lesson."""
@@ -149,10 +252,27 @@ class Document:
             self.history = History(self.home)
         self._follow()
 
+    @property
+    def _followed(self):
+        """The paths of all files that the scene is made from."""
+        libraries = self.texts.libraries(opening.shaders(self.scene))
+        return [*self.files, *opening.sources(self.scene), *libraries]
+
     def _follow(self):
-        self.watch.follow([*opening.sources(self.scene), *([self.path] if self.path else [])])
+        before = self.watch.paths
+        self.watch.follow(self._followed)
+        back = [path for path in self.texts.fresh if path in self.watch.paths - before]
+        if back:  # they may have been saved while the scene had no use for them
+            self._read(back)
 
 
 def uses_time(scene):
     """Return whether a model or a light of a scene changes with its time."""
     return any(p.widget == "time" for shader in opening.shaders(scene) for p in shader.parameters)
+
+
+def _at_fault(mistake):
+    """Return the path of the file that a Mistake names, or None."""
+    found = _AT_FAULT.match(str(mistake))
+    path = os.path.abspath(found.group(1)) if found else ""
+    return path if os.path.isfile(path) and not ships(path) else None

@@ -6,12 +6,10 @@ from imgui_bundle import imgui
 
 from .words import TEXT
 
-TOOLS = {
-    "plots": "F3",
-    "sheet": "F4",
-    "film": "F8",
-}  # {name: its key}, in the order of their buttons
+# {name: its key}, in the order of their buttons
+TOOLS = {"plots": "F3", "sheet": "F4", "editor": "F7", "film": "F8"}
 WIDE, NARROWEST = 0.34, 18.0  # share of the window, and the least in sizes of letters
+WIDER = {"editor": 0.42}  # share for what has long lines
 
 
 class Now(NamedTuple):
@@ -26,6 +24,7 @@ class Now(NamedTuple):
     stage    the picture, with its renderer and context; images: Overlay, see `image` there
     document what is open, and its files
     left     where the picture begins, in pixels from the left of the window
+    time     of this frame, in seconds
     """
 
     scene: object
@@ -41,6 +40,7 @@ class Now(NamedTuple):
     images: object
     document: object
     left: int
+    time: float
 
 
 class Drawer:
@@ -80,7 +80,8 @@ class Drawer:
         room, height = area.work_size
         right = area.work_pos.x + room
         imgui.set_next_window_pos((right, area.work_pos.y), 0, (1.0, 0.0))
-        imgui.set_next_window_size((max(NARROWEST * em, WIDE * room), height), imgui.Cond_.once)
+        wide = max(NARROWEST * em, WIDER.get(self.open, WIDE) * room)
+        imgui.set_next_window_size((wide, height), imgui.Cond_.once)
         most = max(NARROWEST * em, 0.7 * room)
         imgui.set_next_window_size_constraints((NARROWEST * em, height), (most, height))
         flags = imgui.WindowFlags_.no_move | imgui.WindowFlags_.no_collapse
@@ -100,6 +101,10 @@ def _made(name, now):
         from .datasheet import Datasheet
 
         return Datasheet(now)
+    if name == "editor":
+        from .editor import Editor
+
+        return Editor()
     if name == "film":
         from .filming import Filming
 

@@ -21,6 +21,13 @@ GLSL = os.path.join(ROOT, "glsl")
 ASSETS = os.path.join(ROOT, "assets")
 
 
+def shortened(message):
+    """Return a message with the paths of shipped shaders and of this folder made short."""
+    for folder in (GLSL, os.getcwd()):
+        message = message.replace(folder + os.sep, "")
+    return message
+
+
 def cache_folder():
     """Return the folder for what can be made again at any time; it need not exist yet."""
     if os.name == "nt":

@@ -34,7 +34,7 @@ class Instrument(OnCard):
     def __init__(self, context=None):
         super().__init__(context)
         self._programs, self._pairs, self._timed = {}, [], None
-        self._repeats = 0  # of a timed run, see costs
+        self._repeats, self._clock = 0, None  # of a timed run, see costs
 
     def _free(self):
         for program, array in self._programs.values():
@@ -109,7 +109,9 @@ class Instrument(OnCard):
         They race each other and an empty model, whose time is taken off, for about so many seconds,
         on directions that are all above the surface. clock: `timing.believed`'s, unless given.
         """
-        clock = clock or timing.believed(self.context, [self.timed(*NOTHING, 64)])
+        if not (clock or self._clock):
+            self._clock = timing.believed(self.context, [self.timed(*NOTHING, 64)])
+        clock = clock or self._clock
         runs, count = self.racers(jobs, clock)
         found = timing.race(runs, clock, seconds, empty=0, spread=True)
         return [one.per(count) for one in found[1:]]
@@ -177,7 +179,7 @@ class Instrument(OnCard):
     def _prepared(self, model, values, what, repeats=0, strict=False):
         """Return the vertex array that evaluates a model with these values, compiled once."""
         constants = model.constants(values)
-        key = (model.text, what, strict, *constants.items())
+        key = (model.source, what, strict, *constants.items())
         if key not in self._programs:
             program = compiled(self.context, compose.measured(model, constants, what, strict))
             self._programs[key] = program, self.context.vertex_array(program, [])

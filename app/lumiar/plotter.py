@@ -1,7 +1,5 @@
 """The plots of the window: they follow the sliders, and the mouse over the picture."""
 
-import time
-
 from imgui_bundle import imgui
 
 from . import (
@@ -69,23 +67,25 @@ class Plots:
         tabs = words["plots"]["tabs"]
         imgui.set_next_item_width(-1.0)
         self.kind = labels.pick("kind", self.kind, [(kind, tabs[kind]) for kind in KINDS])
-        self._measure(models, aim, pixel, now.rests)
+        self._measure(models, aim, pixel, now)
         self._plot(models, words)
         self._tell(models, words["plots"])
         self._ask_light(now.shown, models[0], words["plots"])
         self._list(models, words["plots"])
         self._save(now.state.lang, words["plots"])
-        now.state.restless = now.state.restless or self._bench.busy or self._held
+        now.state.restless = now.state.restless or self._bench.busy
+        if self._held:
+            now.state.wake = min(now.state.wake, self._changed + CALM)
         return now.scene
 
-    def _measure(self, models, aim, pixel, rests):
+    def _measure(self, models, aim, pixel, now):
         """Measure what the plot shows; settle on a scale."""
         bench, kind, found = self._bench, self.kind, []
         for one in models:
             if kind == "fresnel":
                 found.append(bench.facet(one))
             elif kind == "albedo":
-                found.append(bench.albedo(one, aim.phi, rests))
+                found.append(bench.albedo(one, aim.phi, now.rests))
             else:
                 found.append((bench.lobe if kind == "lobe" else bench.curve)(one, aim))
         some = [(one, its) for one, its in zip(models, found, strict=True) if its is not None]
@@ -93,11 +93,11 @@ class Plots:
         self.drawn = plotfiles.Drawn(kind, *map(tuple, parts), aim, pixel)
         self._held = False
         if kind in plotfiles.LOBES:
-            self._settle(tuple(one.label for one in models))
+            self._settle(tuple(one.label for one in models), now.time)
 
-    def _settle(self, labels):
+    def _settle(self, labels, now):
         """Take the scale that suits the curves; while they change it only grows."""
-        shown, now = self.drawn.shown, time.monotonic()
+        shown = self.drawn.shown
         data, key = [one.f for one in shown], (self.kind, self._log, labels)
         if not self._scaled or key != self._scaled[0]:
             self._scale = None

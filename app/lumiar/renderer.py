@@ -220,7 +220,7 @@ class Renderer(OnCard):
         for number, light in enumerate(scene.lights, 1):
             if not light.visible:
                 continue
-            key = ("backdrop", number, light.kind.text, *fixed.items())
+            key = ("backdrop", number, light.kind.source, *fixed.items())
             if key not in self._programs:
                 sources = compose.backdrop(light.kind, number, fixed)
                 self._programs[key] = self._compile(sources)
@@ -238,7 +238,7 @@ class Renderer(OnCard):
 
     def _program(self, scene, placed, shows):
         """Return the program for an object of a scene, compiled once."""
-        texts = (placed.object.model.text, *(light.kind.text for light in scene.lights))
+        texts = (placed.object.model.source, *(light.kind.source for light in scene.lights))
         facts = (scene.shading, placed.closed, placed.transformed, shows, layout.shadows(scene))
         key = (*facts, *texts, *layout.constants(scene, placed).items())
         if key not in self._programs:

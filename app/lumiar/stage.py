@@ -6,6 +6,7 @@ import time
 from . import hands, opening
 from .errors import Mistake, one_line
 from .renderer import Renderer
+from .scene import Scene
 
 PROMPT = 0.04  # seconds that a picture may take while it moves
 REST = 0.2  # seconds without a change before one that takes longer is drawn in full
@@ -46,7 +47,7 @@ class Stage:
         """Bring the picture up to date; since: seconds for which nothing has changed.
 
         A picture that takes long has one sample per pixel while it moves, all of them at rest.
-        Raises Mistake where no scene could be drawn yet.
+        The default scene is in its place where none could be drawn yet.
         """
         coarse = self.cost > PROMPT and since < REST
         if self._drawn == (scene, size) and self.coarse in (False, coarse):
@@ -56,11 +57,11 @@ class Stage:
             self.shown = self._show(scene, size, coarse)
         except Mistake as mistake:
             self.fault = one_line(mistake)
-            if self.good is None:
-                raise
             with contextlib.suppress(Mistake):  # larger than any picture can be
-                self.shown = self._show(self.good, size, coarse)
+                self.shown = self._show(self.good or Scene.default(), size, coarse)
                 self.view = self.renderer.viewpoint(self.shown)
+            if self.canvas is None:
+                raise
         else:
             self._forget_edited(scene)
             self.good, self.fault = scene, ""
@@ -88,10 +89,10 @@ class Stage:
 
     def _forget_edited(self, scene):
         """Free what was compiled from files as they were before their last good save."""
-        texts = {shader.path: shader.text for shader in opening.shaders(scene)}
+        sources = {shader.path: shader.source for shader in opening.shaders(scene)}
         for old in opening.shaders(self.good) if self.good else ():
-            if texts.get(old.path, old.text) != old.text:
-                self.renderer.forget(old.text)
+            if sources.get(old.path, old.source) != old.source:
+                self.renderer.forget(old.source)
 
     def _drop_canvas(self):
         if self.canvas:

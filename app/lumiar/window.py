@@ -1,7 +1,6 @@
 """The window: input → next Scene, its picture, the panel on it; drawn only when something moved."""
 
 import math
-import os
 import time
 
 from imgui_bundle import imgui
@@ -11,7 +10,7 @@ from .desktop import LETTERS, Desktop, glfw
 from .document import Document
 from .drawer import TOOLS, Drawer, Now
 from .errors import Mistake, one_line
-from .files import unused
+from .files import shortened, unused
 from .overlay import Overlay
 from .phrases import TEXT
 from .stage import REST, Stage
@@ -33,7 +32,7 @@ class Viewer:
     """
 
     def __init__(self, scene, lang, name="", path="", hidden=False, size=SIZE):
-        self.document = Document(scene, name, path)
+        self.document = scene if isinstance(scene, Document) else Document(scene, name, path)
         self.desktop = Desktop(size, "Lumiar", hidden)
         context = self.desktop.context
         self.stage, self.overlay, self.drawer = Stage(context), Overlay(context), Drawer()
@@ -83,10 +82,10 @@ class Viewer:
         self.due = max(self.due, now >= self.state.wake)
         if self.document.tick(now):
             self.due, self.moved = max(self.due, 1), now
-        saved = self.document.watch.changed(now)
-        if events or saved or self.due or self._lingers(now):
+        saved, typed = self.document.watch.changed(now), self.document.look(now)
+        if events or saved or typed or self.due or self._lingers(now):
             self.desktop.use()
-        if events:
+        if events or typed:
             self.due, self.awake = FRAMES, now + LINGER
         for event, *how in events:
             getattr(self, f"_on_{event}")(*how)
@@ -146,7 +145,7 @@ class Viewer:
         return Now(
             *(self.scene, stage.shown, stage.view, self.picked, self._pointed()),
             *(fault, now - self.moved > REST, state, words.TEXT[state.lang]),
-            *(stage, self.overlay, self.document, self._area()[0]),
+            *(stage, self.overlay, self.document, self._area()[0], now),
         )
 
     def _pointed(self):
@@ -172,7 +171,7 @@ class Viewer:
         if at[1] > 1:
             page = words["page"].format(*at)
             caption = f"{page}   {caption}".strip()
-        fault = (document.fault or self.stage.fault or self.fault).replace(os.getcwd() + os.sep, "")
+        fault = shortened(document.fault or self.stage.fault or self.fault)
         fault = f"{fault}\n{words['last']}" if fault else ""
         if not self.with_panel:
             fault = fault or self.state.message
@@ -225,7 +224,8 @@ class Viewer:
 
     def _on_key(self, key, held):
         io, popup = self.desktop.io, imgui.PopupFlags_.any_popup
-        if io.want_text_input or (key == glfw.KEY_ESCAPE and imgui.is_popup_open("", popup)):
+        typed = io.want_text_input and not glfw.KEY_F1 <= key <= glfw.KEY_F12
+        if typed or (key == glfw.KEY_ESCAPE and imgui.is_popup_open("", popup)):
             return
         document, forward = self.document, held & glfw.MOD_SHIFT
         if held & (glfw.MOD_CONTROL | glfw.MOD_SUPER):
@@ -277,6 +277,7 @@ class Viewer:
         self.notice = (text, time.monotonic() + NOTICE)
 
     def _keep(self):
+        self.document.texts.put_by()
         good = self.stage.good
         if self.kept is not good and good is not None:
             opening.keep(good)

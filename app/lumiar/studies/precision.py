@@ -48,8 +48,7 @@ def run(bench):
     for name in NAMES:
         for way, errors in _errors(bench, name).items():
             broken[way].append(errors["broken"])
-            default = way == "lumiar" and name != "ward"  # whose default is not the slide's
-            yield from points(name, way, errors, costs[name, way], default=default)
+            yield from points(name, way, errors, costs[name, way], default=way == "lumiar")
     yield _census(max(broken["lumiar"]), broken["printed"])
 
 
