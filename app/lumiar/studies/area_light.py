@@ -20,13 +20,17 @@ METRICS = {ERROR: RELATIVE}
 SIZES = {False: (0.1, 1.0, 10.0), True: (1.0,)}  # of the lamp, over its height
 COUNTS = {False: (1, 4, 16, 64, 256, 1024, 4096), True: (1, 16, 64)}
 PLACES, SEEDS, ROWS = 128, 16, 64  # of the floor; random numbers for each; rows while timed
-PICTURE, SHOWN = 64, 16  # pixels a side; samples
+PICTURE, SHOWN = 96, 4  # pixels a side; samples
 EXACT, EDGES = "closed", "edges"
 KINDS = ("area", "angle")
 POINTS = {
     "random": ("random", "aleatórios"),
     "stratified": ("stratified", "estratificados"),
     "spread": ("low-discrepancy", "de baixa discrepância"),
+}
+WHAT = {
+    "area": {"en": "points of its area", "pt": "pontos da área"},
+    "angle": {"en": "directions to it", "pt": "pontos do ângulo sólido"},
 }
 WORDS = {
     ERROR: {
@@ -44,8 +48,8 @@ WORDS = {
     },
     **{
         f"{kind} {points} {n}": {
-            "en": f"{n} {en} {'points of its area' if kind == 'area' else 'directions to it'}",
-            "pt": f"{n} {'pontos da área' if kind == 'area' else 'pontos do ângulo sólido'} {pt}",
+            "en": f"{WHAT[kind]['en']}, {en}: {n}",
+            "pt": f"{WHAT[kind]['pt']}, {pt}: {n}",
         }
         for kind in KINDS
         for points, (en, pt) in POINTS.items()
@@ -59,10 +63,6 @@ FALLS = {
 PRICE = {
     "en": "{case}: to err by less than 1 % takes {names}, {ratio} times the closed form's time.",
     "pt": "{case}: errar menos de 1 % pede {names}, {ratio} vezes o tempo da forma fechada.",
-}
-WHAT = {
-    "area": {"en": "points of its area", "pt": "pontos da área"},
-    "angle": {"en": "directions to it", "pt": "pontos do ângulo sólido"},
 }
 
 
@@ -138,7 +138,8 @@ def run(bench):
                 found += study.points(case, variant, {ERROR: error}, *more)
                 if size == 1.0 and (way.drawn == "exact" or way.samples == SHOWN):
                     pixels = estimator.radiance(shown, matt, light, eye, way)
-                    yield Shown(case, variant, pixels, np.abs(pixels[..., 0] / seen - 1.0))
+                    off = np.abs(pixels[..., 0] / seen - 1.0)
+                    yield Shown(case, variant, pixels / seen.max(), off)
             yield from found
             yield from remarks(found)
 

@@ -39,7 +39,8 @@ TOLD = 64  # directions that ways are held against each other with
 PLACES, SEEDS, ROWS = 64, 32, 128  # of the sphere; random numbers for each; rows while timed
 FAR = 0.9  # share of the visible disk's radius: beyond, sums would need finer nodes
 EYE = (0.0, 0.0, 4.0)
-PICTURE, SHOWN, CONVERGED = 64, 16, 1024  # pixels a side; directions; of what errors are shown from
+PICTURE, SHOWN, CONVERGED = 72, 16, 1024  # pixels a side; directions; for what is held right
+WHITE = 2.0  # mean radiances that are shown as white
 GOLDEN = 2.399963229728653  # radians
 NAMES = {
     "furnace": ("furnace", "forno branco"),
@@ -234,7 +235,9 @@ def remarks(found):
 def _pictures(estimator, shown, one, lamp, seen, case):
     """Yield a picture of each way; errors from one of many directions, other than the truth."""
     whole = estimator.radiance(shown, one, lamp, EYE, Way("both", "random", CONVERGED))
+    mean = whole[seen].mean()
     for drawn in WAYS:
         pixels = estimator.radiance(shown, one, lamp, EYE, Way(drawn, "spread", SHOWN))
-        off = np.abs(pixels - whole).max(axis=-1) / whole[seen].mean()
-        yield Shown(case, f"{drawn} {SHOWN}", pixels * seen[..., None], off * seen)
+        off = np.abs(pixels - whole).max(axis=-1) / mean
+        shown_as = pixels * (seen[..., None] / (WHITE * mean))
+        yield Shown(case, f"{drawn} {SHOWN}", shown_as, off * seen)

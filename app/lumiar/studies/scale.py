@@ -26,14 +26,22 @@ COUNTS = {  # case: how many of it, in full and quickly
     "objects": ([1, 4, 16, 64, 256], [1, 16, 64]),
 }
 OURS, FLOOR = "phong", "floor"
+STORED = ("pixels", "triangles")  # what takes memory
 PORTUGUESE = {"triangles": "triângulos", "lights": "luzes", "objects": "objetos"}
 WORDS = {
     TIME: {"en": "time of a frame", "pt": "tempo de um quadro"},
     MEMORY: {
-        "en": "memory on the card: the picture and its depth, or the mesh",
-        "pt": "memória na placa: a imagem e sua profundidade, ou a malha",
+        "en": "memory of the picture and its depth, or of the mesh",
+        "pt": "memória da imagem e sua profundidade, ou da malha",
     },
     **{case: {"en": case, "pt": PORTUGUESE.get(case, case)} for case in COUNTS},
+    **{
+        f"{case}, {MEMORY}": {
+            "en": f"{case}: memory on the card",
+            "pt": f"{PORTUGUESE.get(case, case)}: memória na placa",
+        }
+        for case in STORED
+    },
     **{
         f"{which} {n} {case}": {
             "en": f"{'Phong' if which == OURS else 'one colour'}, {case}: {n:,}",
@@ -91,11 +99,11 @@ def run(bench):
             found += study.points(case, name, {TIME: None}, timing, "ms", parameters=facts)
         yield from found
         yield said(case, found)
-        for n in chosen if case in ("pixels", "triangles") else ():
+        for n in chosen if case in STORED else ():
             size = memory(case, scenes[OURS, n]) / 1e6
             facts = {"parameters": {"count": float(n)}}
             cost = (None, size, size, size, 0.0, "MB")
-            yield Point("", case, f"{OURS} {n} {case}", MEMORY, *cost, **facts)
+            yield Point("", f"{case}, {MEMORY}", f"{OURS} {n} {case}", MEMORY, *cost, **facts)
 
 
 class _Targets:
