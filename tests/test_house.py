@@ -12,7 +12,7 @@ ROOT = Path(__file__).parent.parent
 APP = ROOT / "app" / "lumiar"
 FLOORS = [  # lowest first; a module imports only from floors below its own
     "errors",
-    "files",
+    "files portuguese",
     "parameter cache supervise polygons reference_terms camera tomltext driverlog glsltext "
     "difference contract image sheet gonio captions spectrum claims arguments factors scale "
     "occluders history words notation watch phrases banner clock timing study",
@@ -23,9 +23,9 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "settings factor_card layout content variants navigate overlay",
     "scenefile stock hands targets",
     "scene editing",
-    "renderer lesson sections opening texts",
-    "picture options measure views report panel document editor",
-    "hostile measuring falsecolour reflectance deck presenter stage film stopwatch",
+    "renderer lesson opening rows texts",
+    "picture options measure views report document sections shelf editor",
+    "hostile measuring falsecolour reflectance deck panel presenter stage film stopwatch",
     "examine probe bench",
     "audit filming datasheet studies",
     "drawer",
@@ -58,6 +58,8 @@ HOMES = {  # a heavy library and the modules that may know it
         "window",
         "datasheet",
         "filming",
+        "rows",
+        "shelf",
     },
     "glfw": {"desktop"},
 }
