@@ -15,11 +15,12 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "files portuguese",
     "parameter cache supervise polygons reference_terms camera tomltext driverlog glsltext "
     "difference contract image sheet gonio captions spectrum claims arguments factors scale "
-    "occluders history words notation watch phrases banner clock timing study",
+    "occluders history words notation watch phrases banner clock timing study bilingual",
     "catalog mesh reference_energy tables panels units estimates card legend slide readout labels "
-    "advice codearea",
-    "ledger formats shapes plots factor_table reference flatten daylight widgets desktop auditor",
-    "geometry compose parts materials hemisphere surroundings",
+    "advice chart codearea plates",
+    "ledger formats shapes plots factor_table reference flatten daylight widgets desktop auditor "
+    "figures",
+    "geometry compose parts materials hemisphere surroundings page",
     "settings factor_card layout content variants navigate overlay",
     "scenefile stock hands targets",
     "scene editing",

@@ -405,5 +405,5 @@ def test_a_parameter_of_a_shape_is_changed_by_its_name():
     assert {"mesh.minor", "mesh.subdivision"} <= {*settings.keys(scene)}
     with pytest.raises(Mistake, match=r"torus: minor = -1.0 is not possible; allowed: 1e-06 to"):
         scene.changed("object.1.mesh.minor", -1.0)
-    with pytest.raises(Mistake, match="no value 'object.2.mesh.minor'"):
+    with pytest.raises(Mistake, match=r"no value 'object.2.mesh.minor'"):
         scene.changed("object.2.mesh.minor", 0.2)

@@ -95,7 +95,7 @@ def test_the_sentence_is_derived_from_the_figures():
         "EXACT costs 0.4 ns more than QUICK and removes an error of up to 0.036: use it."
     ]
     assert said(BARGAIN, "pt") == [
-        "EXACT custa 0.4 ns a mais que QUICK e elimina um erro de até 0.036: use."
+        "EXACT custa 0,4 ns a mais que QUICK e elimina um erro de até 0,036: use."
     ]
     turned = [point("exact", 1e-7, 5.4), point("quick", 1e-3, 1.0)]  # which no display shows
     assert said(turned)[0].startswith("QUICK errs by 0.001 at most, which does not show")

@@ -1,6 +1,7 @@
 """What the points of one case and metric advise, in a sentence or two, derived from them alone."""
 
 from . import study
+from .notation import number
 
 WORDS = {
     "en": {
@@ -28,11 +29,6 @@ WORDS = {
         "no error": "{pick} não tem erro que conte, e nada é claramente mais barato: use.",
     },
 }
-
-
-def number(value):
-    """Return a number in words of two digits."""
-    return f"{float(f'{value:.2g}'):g}"
 
 
 def chosen(group, metric):
@@ -67,11 +63,11 @@ def sentences(group, metric, names, lang):
         return ", ".join(names[p.variant] for p in sorted(points, key=lambda p: p.error))
 
     rivals = [p for p in group if p.pareto and study.cheaper(p, pick) and p.error > pick.error]
-    facts = {"pick": names[pick.variant], "after": number(pick.error), "unit": pick.unit}
+    facts = {"pick": names[pick.variant], "after": number(pick.error, 2, lang), "unit": pick.unit}
     if rivals:
         rival = min(rivals, key=lambda p: p.error)
-        facts |= {"rival": names[rival.variant], "before": number(rival.error)}
-        facts["more"] = number(pick.cost - rival.cost)
+        facts |= {"rival": names[rival.variant], "before": number(rival.error, 2, lang)}
+        facts["more"] = number(pick.cost - rival.cost, 2, lang)
         small = pick.error < max(metric.floor, 0.02 * rival.error)
         facts["gain"] = words["gain" if small else "less"].format(**facts)
         out = [words["worth"].format(**facts)]

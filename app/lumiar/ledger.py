@@ -15,6 +15,7 @@ import json
 from . import advice, study
 from .errors import Mistake
 from .files import read_bytes
+from .notation import number
 
 SCHEMA = 1
 LIMIT = 1 << 26  # bytes of a report
@@ -91,37 +92,38 @@ def advised(found, metrics, words):
 
 def table(one, lang):
     """Return the lines of a study of a report for people: a table for each case."""
-    names, words = _names(one["words"], lang), TEXT[lang]
+    names = _names(one["words"], lang)
     lines, cases = [one["title"][lang]], {}
     for row in one["points"]:
         cases.setdefault(row["case"], []).append(study.from_row(row))
     for case, found in cases.items():
         metrics = list(dict.fromkeys(point.metric for point in found))
-        lines += ["", names[case], *_aligned(_rows(found, metrics, names, words))]
+        lines += ["", names[case], *_aligned(_rows(found, metrics, names, lang))]
         for said in (said for said in one["advice"] if said["case"] == case and said[lang]):
             what = f"{names[said['metric']]}: " * (len(metrics) > 1)
             lines.append(f"  {what}{' '.join(said[lang])}")
     return "\n".join([*lines, *(f"  {said[lang]}" for said in one["remarks"])])
 
 
-def _rows(found, metrics, names, words):
+def _rows(found, metrics, names, lang):
     """Yield the rows of a case's table: a variant, its error in each metric, its cost."""
+    words = TEXT[lang]
     yield ("", *(names[metric] for metric in metrics), *words["head"])
     variants = {}
     for point in sorted(found, key=lambda p: p.cost):
         variants.setdefault(point.variant, {})[point.metric] = point
     for name, own in variants.items():
         point = next(iter(own.values()))
-        errors = [_error(own.get(metric)) for metric in metrics]
-        cost, low, high = (f"{x:.3g}" for x in (point.cost, point.low, point.high))
+        errors = [_error(own.get(metric), lang) for metric in metrics]
+        cost, low, high = (number(x, 3, lang) for x in (point.cost, point.low, point.high))
         label = names[name] + f" ({words['default']})" * point.default
         yield (label, *errors, f"{cost} {point.unit}", f"{low} … {high}")
 
 
-def _error(point):
+def _error(point, lang):
     if point is None or point.error is None:
         return " "
-    return advice.number(point.error) + (" *" if point.pareto else "  ")
+    return number(point.error, 2, lang) + (" *" if point.pareto else "  ")
 
 
 def _aligned(rows):
