@@ -111,6 +111,7 @@ def test_the_reference_compiler_takes_shadows_and_what_is_shown(model, tmp_path)
 def test_the_reference_compiler_takes_what_is_measured(model, tmp_path):
     shader = catalog.read("model", model)
     needed = {"surround": "surround", "density": "scatter_pdf", "sampled": "sample_scatter"}
+    needed["facet"] = "F_facet"
     kinds = ["scatter", "timed", *(k for k, name in needed.items() if name in shader.defines)]
     kinds += ["weighed"] * ("sampled" in kinds)
     constants = {p.name: p.default for p in shader.parameters if p.constant}

@@ -120,11 +120,12 @@ def measured(model, constants, what, strict=False):
     """Return the sources {stage: Source} that evaluate a model, a pair of directions per pixel.
 
     what is "scatter", "surround" (in a white furnace), "timed" (scatter again and again), "density"
-    (scatter_pdf), "sampled" or "weighed" (the direction or the weight that sample_scatter makes of
-    V and of u, in place of L). strict lets no NaN get lost in max, min or clamp.
+    (scatter_pdf), "facet" (F_facet at N.V), "sampled" or "weighed" (the direction or the weight
+    that sample_scatter makes of V and of u, in place of L). strict lets no NaN get lost in max, min
+    or clamp.
     """
     places = {"MODEL": [(model.path, "models", _fixed(model, constants))]}
-    words = ("scatter", "surround", "timed", "density", "weighed")
+    words = ("scatter", "surround", "timed", "density", "facet", "weighed")
     facts = {word: word == what for word in words}
     facts |= {"strict": strict, "sampled": what in ("sampled", "weighed")}
     return {
