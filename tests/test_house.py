@@ -15,20 +15,21 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "files",
     "parameter cache supervise polygons reference_terms camera tomltext driverlog glsltext "
     "difference contract image sheet gonio captions spectrum claims arguments factors scale "
-    "occluders history words notation watch phrases banner clock timing study bilingual",
+    "occluders history words notation watch phrases banner clock timing study bilingual "
+    "colorimetry",
     "catalog mesh reference_energy tables panels units estimates card legend slide readout labels "
     "advice chart codearea plates",
     "ledger formats shapes plots factor_table reference flatten daylight widgets desktop auditor "
     "figures",
     "geometry compose parts materials hemisphere surroundings page",
     "settings factor_card layout content variants navigate overlay",
-    "scenefile stock hands targets",
-    "scene editing",
-    "renderer lesson sections opening texts",
-    "picture options measure views report panel document editor",
+    "scenefile stock hands targets facing",
+    "scene editing sight charts",
+    "renderer lesson sections opening texts solids",
+    "picture options measure views report panel document estimate editor",
     "hostile measuring falsecolour reflectance deck presenter stage film stopwatch",
-    "examine probe bench",
-    "audit filming datasheet studies",
+    "examine probe bench curves plotfiles",
+    "audit filming datasheet studies plotter",
     "drawer",
     "window",
     "verbs benching",
@@ -58,6 +59,9 @@ HOMES = {  # a heavy library and the modules that may know it
         "drawer",
         "window",
         "datasheet",
+        "plotter",
+        "solids",
+        "charts",
         "filming",
     },
     "glfw": {"desktop"},

@@ -49,6 +49,15 @@ def keys(area, lines):
     imgui.end()
 
 
+def ring(left, pixel):
+    """Mark a pixel of the picture, which begins `left` pixels from the left of the window."""
+    scale = imgui.get_io().display_framebuffer_scale
+    place = ((left + pixel[0] + 0.5) / scale.x, (pixel[1] + 0.5) / scale.y)
+    ink, radius = imgui.get_background_draw_list(), 0.5 * imgui.get_font_size()
+    for colour, width in ((0xC0000000, 4.0), (0xFFFFFFFF, 2.0)):
+        ink.add_circle(place, radius, colour, 0, width)
+
+
 def _box(name, text, colour, alpha, place, pivot, most):
     """Write a text in a box of its own; return the height of the box."""
     imgui.set_next_window_pos(place, 0, (pivot, 1.0))

@@ -29,15 +29,15 @@ def text(found, scene, lang):
         lines.append([words["position"], f"{_list(found['position_m'])} m"])
         lines.append([words["normal"], _list(found["normal"])])
         distance, angle = found["distance_m"], found["theta_o_deg"]
-        lines.append([words["eye"], f"{_number(distance)} m, θₒ {angle:.4g}°"])
+        lines.append([words["eye"], f"{number(distance)} m, θₒ {angle:.4g}°"])
     table = [["", words["radiometric"], words["photometric"], words["rgb"]]]
     for name, watts, unit, lumens, other, rgb in _ROWS:
         if found[watts] is not None:
             about = words[name]
             if name == "M" and not found["exitance_exact"]:
                 about += words["estimate"]
-            photometric = f"{_number(found[lumens])} {other}" if lumens else ""
-            row = [about, f"{_number(found[watts])} {unit}".strip(), photometric]
+            photometric = f"{number(found[lumens])} {other}" if lumens else ""
+            row = [about, f"{number(found[watts])} {unit}".strip(), photometric]
             table.append([*row, _list(found[rgb])])
     parts = [_columns(lines), _columns(table)]
     if found["lights"]:
@@ -63,9 +63,9 @@ def _light(light):
     name = " ".join(filter(None, (str(light["number"]), light["kind"], light["name"])))
     shares = (light["share_of_luminance"], light["share_of_illuminance"])
     L, E = ("-" if share is None else f"{100.0 * share:.3g}" for share in shares)
-    row = [name, _number(light["luminance_cd_m2"]), L, _number(light["illuminance_lx"]), E]
+    row = [name, number(light["luminance_cd_m2"]), L, number(light["illuminance_lx"]), E]
     keys = ("irradiance_W_m2", "efficacy_lm_W", "theta_i_deg", "azimuth_deg", "f_1_sr", "albedo")
-    return row + [_number(light[key]) for key in keys]
+    return row + [number(light[key]) for key in keys]
 
 
 def _object(one, words):
@@ -83,8 +83,9 @@ def _columns(rows):
 
 
 def _list(numbers):
-    return ", ".join(map(_number, numbers))
+    return ", ".join(map(number, numbers))
 
 
-def _number(x):
+def number(x):
+    """Return a number as the table has it, to five digits; "-" for None."""
     return "-" if x is None else "0" if abs(x) <= 1e-12 else f"{x:.5g}"

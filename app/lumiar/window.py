@@ -143,10 +143,17 @@ class Viewer:
         stage, state = self.stage, self.state
         fault = self.document.fault or stage.fault
         return Now(
-            *(self.scene, stage.shown, stage.view, self.picked, fault, now - self.moved > REST),
-            *(state, words.TEXT[state.lang], stage, self.overlay, self.document),
-            now,
+            *(self.scene, stage.shown, stage.view, self.picked, self._pointed()),
+            *(fault, now - self.moved > REST, state, words.TEXT[state.lang]),
+            *(stage, self.overlay, self.document, self._area()[0], now),
         )
+
+    def _pointed(self):
+        """Return the pixel of the picture below the mouse, None while it is elsewhere or drags."""
+        x, y = int(self._place[0]) - self._area()[0], int(self._place[1])
+        size = self.stage.shown.size if self.stage.shown else (0, 0)
+        busy = self.desktop.io.want_capture_mouse or self.hands.holds
+        return (x, y) if not busy and 0 <= x < size[0] and 0 <= y < size[1] else None
 
     def _wish(self):
         """Do what a button of the panel asks for."""
