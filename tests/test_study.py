@@ -37,6 +37,13 @@ def test_a_planted_slow_and_wrong_variant_is_beaten():
     assert said([*BARGAIN, point("planted", 0.5, 9.0)])[-1] == "No bargain: PLANTED."
 
 
+def test_many_that_are_beaten_are_counted_and_only_the_best_of_them_named():
+    found = [*BARGAIN, *(point("planted", 0.5 + 0.1 * i, 9.0 + i) for i in range(5))]
+    assert said(found)[-1].count("PLANTED") == 5 and "more" not in said(found)[-1]
+    found = [*found, point("planted", 2.0, 20.0), point("planted", 3.0, 20.0)]
+    assert said(found)[-1] == f"No bargain: {'PLANTED, ' * 4}3 more."
+
+
 def test_a_planted_fast_and_exact_variant_is_the_front():
     found = [*BARGAIN, point("planted", 0.0, 0.2)]
     assert front(found) == ["planted"]
