@@ -15,7 +15,8 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "files",
     "parameter cache supervise polygons reference_terms camera tomltext driverlog glsltext "
     "difference contract image sheet gonio captions spectrum claims arguments factors scale "
-    "occluders history words notation watch phrases banner clock timing study bilingual",
+    "occluders history words notation watch phrases banner clock timing study bilingual "
+    "colorimetry",
     "catalog mesh reference_energy tables panels units estimates card legend slide readout labels "
     "advice chart codearea plates",
     "ledger formats shapes plots factor_table reference flatten daylight widgets desktop auditor "
@@ -25,7 +26,7 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "scenefile stock hands targets facing",
     "scene editing sight charts",
     "renderer lesson sections opening texts solids",
-    "picture options measure views report panel document editor",
+    "picture options measure views report panel document estimate editor",
     "hostile measuring falsecolour reflectance deck presenter stage film stopwatch",
     "examine probe bench curves plotfiles",
     "audit filming datasheet studies plotter prober",

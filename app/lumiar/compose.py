@@ -134,6 +134,30 @@ def measured(model, constants, what, strict=False):
     }
 
 
+def estimated(model, light, constants, drawn, points):
+    """Return the sources {stage: Source} that estimate what pieces of a surface reflect of a light.
+
+    constants as `surface` takes them, the light being number 1. drawn says how directions are:
+    "exact" (none, the light's `irradiance`), "light", "even" over the hemisphere, "cosine", "model"
+    (its sample_scatter), or "both" (light and model); points of which kind, "random", "stratified"
+    or "spread" (rigs/spread.glsl).
+    """
+    places = {
+        "MODEL": [(model.path, "models", _fixed(model, constants))],
+        "LIGHTS": [(light.path, "lights", _renamed(light, 1, constants))],
+    }
+    words = ("light", "arriving", "density", "irradiance")
+    kinds = {word: [f"{word}_1"] if word in light.defines else [] for word in words}
+    facts = {word: word == drawn for word in ("exact", "even", "cosine", "both")}
+    facts |= {"aimed": drawn in ("light", "both"), "drawn": drawn in ("model", "both")}
+    facts["met"] = drawn in ("even", "cosine", "model", "both")
+    facts |= {"spread": points == "spread", "stratified": points == "stratified"}
+    return {
+        "vertex": finish(flatten("rigs/screen.vert", {}, {}, {})),
+        "fragment": finish(flatten("rigs/estimate.frag", places, kinds, facts)),
+    }
+
+
 def screen(rig, constants):
     """Return the sources {stage: Source} of a rig that fills the screen, such as "present"."""
     shader = read("rig", os.path.join(GLSL, "rigs", f"{rig}.frag"))
