@@ -122,6 +122,7 @@ class Viewer:
         self._say_over(left, size, now)
         imgui.render()
         screen = desktop.context.screen
+        screen.clear()  # else what was there shines through the panels
         self.overlay.picture(self.stage.canvas.color_attachments[0], screen, left)
         self.overlay.widgets(imgui.get_draw_data(), screen, desktop.size)
         desktop.show()
