@@ -4,6 +4,7 @@ import numpy as np
 
 from .. import catalog, measure, reference, study, surroundings
 from ..estimate import Estimator, Way, costs
+from ..notation import number
 from ..parts import Light, Object
 from ..study import Metric, Remark, Shown
 
@@ -47,8 +48,8 @@ NAMES = {
     "venice": ("photograph of Venice", "fotografia de Veneza"),
     "studio": ("studio with small bright lamps", "estúdio com lâmpadas pequenas e fortes"),
     "lambert": ("matt", "fosco"),
-    "gold 0.3": ("gold, α = 0.3", "ouro, α = 0.3"),
-    "gold 0.1": ("gold, α = 0.1", "ouro, α = 0.1"),
+    "gold 0.3": ("gold, α = 0.3", "ouro, α = 0,3"),
+    "gold 0.1": ("gold, α = 0.1", "ouro, α = 0,1"),
 }
 WORDS = {
     ERROR: {
@@ -225,7 +226,7 @@ def remarks(found):
             yield Remark(
                 *(
                     SAYS[lang].format(
-                        n=TOLD, way=name, more=f"{ratios[case]:.2g}", case=WORDS[case][lang]
+                        n=TOLD, way=name, more=number(ratios[case], 2, lang), case=WORDS[case][lang]
                     )
                     for lang, name in zip(("en", "pt"), WAYS[way], strict=True)
                 )
