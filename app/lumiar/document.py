@@ -1,13 +1,32 @@
 """What is open in the window: pages of scenes, their history, and the files they are made from."""
 
 import os
+from typing import NamedTuple
 
-from . import catalog, opening
+from . import catalog, compare, contrast, opening
 from . import lesson as lessons
 from .errors import Mistake, one_line
 from .history import History
 from .scene import Scene
 from .watch import Watch
+
+
+class Edit(NamedTuple):
+    """What a step of the history leads to: the scene, and what is shown beside it."""
+
+    scene: Scene
+    comparison: compare.Comparison
+
+
+class Shown(NamedTuple):
+    """A picture that is wanted: its Scene, or None and the line of what keeps it from being made.
+
+    caption: {language: line}, what sets it apart from the others.
+    """
+
+    scene: Scene | None
+    fault: str
+    caption: dict
 
 
 class Document:
@@ -23,15 +42,32 @@ class Document:
     def __init__(self, scene, name="", path=""):
         self.watch, self._fresh, self._memory = Watch(), {}, {}
         self.fault, self.history, self._known = "", None, (None, None)
+        self._pictures = (None, None, [])
         self.open(scene, name, path)
 
     @property
     def scene(self):
         """The scene as it is, its shaders as their files are."""
-        if self._known[0] is not self.history.scene:
-            now = opening.renewed(self.history.scene, self._fresh, self._memory)
-            self._known = (self.history.scene, now)
+        if self._known[0] is not self.history.scene.scene:
+            now = opening.renewed(self.history.scene.scene, self._fresh, self._memory)
+            self._known = (self.history.scene.scene, now)
         return self._known[1]
+
+    @property
+    def comparison(self):
+        """The Comparison that says what is shown beside the scene."""
+        return self.history.scene.comparison
+
+    @property
+    def pictures(self):
+        """The pictures of the comparison, each a Shown."""
+        scene, comparison, found = self._pictures
+        if scene is not self.scene or comparison is not self.comparison:
+            made = [self._made(i, one) for i, one in enumerate(self.comparison.shown)]
+            said = compare.captions(self.comparison, [one for one, _ in made])
+            found = [Shown(*one, words) for one, words in zip(made, said, strict=True)]
+            self._pictures = (self.scene, self.comparison, found)
+        return found
 
     @property
     def caption(self):
@@ -56,11 +92,36 @@ class Document:
             self.page += step
             self._begin()
 
+    def said(self, lang):
+        """Return the captions of the pictures in a language, after their letters."""
+        found = []
+        for letter, variant, one in zip(
+            compare.LETTERS, self.comparison.shown, self.pictures, strict=False
+        ):
+            line = one.caption.get(lang) or one.caption.get("en", "")
+            found.append(line if variant.caption and not variant.kept else f"{letter}   {line}")
+        return found
+
     def push(self, scene, key=None):
         """Make a scene the one that is; see `History.push`."""
         if scene is not self.scene:
-            self.history.push(scene, key)
-            self._follow()
+            self._step(Edit(scene, self.comparison), key)
+
+    def compare(self, comparison, key=None):
+        """Show something else beside the scene; see `History.push`."""
+        if comparison is not self.comparison:
+            self._step(Edit(self.scene, comparison), key)
+
+    def move(self, turn, key):
+        """Move camera or light of all pictures: turn(scene) gives a scene in which it is moved."""
+        comparison, scene = compare.moved(self.comparison, self.scene, turn)
+        if (scene, comparison) != (self.scene, self.comparison):
+            self._step(Edit(scene, comparison), key)
+
+    def look_home(self):
+        """Look at all pictures as when they were opened."""
+        scene = self.scene._replace(camera=self.home.camera)
+        self._step(Edit(scene, compare.looking_as(self.comparison, self._beside)))
 
     def undo(self):
         """Go back a step."""
@@ -72,9 +133,16 @@ class Document:
         self.history.redo()
         self._follow()
 
-    def drop(self, path, chosen=0):
-        """Bring a file into the scene, or open it if it is one; chosen: the object meant."""
+    def drop(self, path, chosen=0, onto=0):
+        """Bring a file into the scene, or open it if it is one; chosen: the object meant.
+
+        onto: which picture is meant, where several are shown; the first one is the scene.
+        """
         try:
+            if onto and not lessons.is_lesson(path):
+                self.compare(self._dropped(path, chosen, onto))
+                self.fault = ""
+                return
             scene = lessons.load(path) if lessons.is_lesson(path) else None
             scene = scene or opening.dropped(self.scene, path, chosen)
             if opening.is_scene(path):
@@ -88,7 +156,7 @@ class Document:
     def reload(self, paths=None):
         """Read files again that were saved, or all; return the names of those that could be."""
         own = {self.path} if self.path else set()
-        paths = {*opening.sources(self.scene), *own} if paths is None else set(paths)
+        paths = {*self._sources(), *own} if paths is None else set(paths)
         try:
             if paths & own:
                 is_lesson = lessons.is_lesson(self.path)
@@ -97,14 +165,15 @@ class Document:
                 self._begin()
             shaders = {
                 shader.path: catalog.read(shader.kind, shader.name)
-                for shader in opening.shaders(self.scene)
+                for one in self._scenes()
+                for shader in opening.shaders(one)
                 if shader.path in paths
             }
         except Mistake as mistake:
             self.fault = one_line(mistake)
             return []
         self._fresh |= shaders
-        self._known, self.fault = (None, None), ""
+        self._known, self._pictures, self.fault = (None, None), (None, None, []), ""
         return sorted(map(os.path.basename, paths))
 
     def _take(self, scene):
@@ -114,12 +183,56 @@ class Document:
         self.pages = [(shot.caption, shot.scene) for shot in shots] or opening.pages(scene)
 
     def _begin(self):
-        self.home = self.pages[self.page][1]
+        self.home, compared = self.pages[self.page][1], compare.Comparison()
+        self._beside = compared
         if self.history and not self.stops:
-            self.history.push(self.home)
+            self.history.push(Edit(self.home, self.comparison))
         else:
-            self.history = History(self.home)
+            self.history = History(Edit(self.home, compared))
         self._follow()
 
+    def _step(self, edit, key=None):
+        self.history.push(edit, key)
+        self._follow()
+
+    def _made(self, index, variant):
+        """Return (scene, line of what is wrong) of a picture."""
+        try:
+            one = compare.scene_of(variant, self.scene)
+        except (Mistake, OSError) as mistake:
+            return None, one_line(mistake)
+        if variant.kept:
+            one = opening.renewed(one, self._fresh, self._memory.setdefault(index, {}))
+        return one, ""
+
+    def _dropped(self, path, chosen, onto):
+        """Return the comparison with a file in one of its pictures."""
+        variant = self.comparison.shown[onto]
+        before = compare.scene_of(variant, self.scene)
+        scene = opening.dropped(before, path, chosen)
+        if opening.is_scene(path):
+            name = os.path.splitext(os.path.basename(path))[0]
+            _, scene = opening.pages(scene)[0]
+            made = compare.Variant(
+                kept=scene, apart=True, caption=dict.fromkeys(("en", "pt"), name)
+            )
+        else:
+            made = variant._replace(kept=scene, caption={})
+            pairs = contrast.differences(before, scene)
+            if variant.kept is None and pairs is not None:
+                old = {key: value for key, value in variant.values if key not in dict(pairs)}
+                made = compare.Variant((*old.items(), *pairs))
+        return compare.replaced(self.comparison, onto, made)
+
+    def _scenes(self):
+        """Return the scene, and those beside it."""
+        return [self.scene, *(one.scene for one in self.pictures if one.scene)]
+
+    def _sources(self):
+        named = (value for one in self.comparison.variants for _, value in one.values)
+        files = (value for value in named if isinstance(value, str) and os.path.isabs(value))
+        found = (path for one in self._scenes() for path in opening.sources(one))
+        return list(dict.fromkeys((*found, *files)))
+
     def _follow(self):
-        self.watch.follow([*opening.sources(self.scene), *([self.path] if self.path else [])])
+        self.watch.follow([*self._sources(), *([self.path] if self.path else [])])

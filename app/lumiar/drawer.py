@@ -6,7 +6,7 @@ from imgui_bundle import imgui
 
 from .words import TEXT
 
-TOOLS = {}  # {name: its key}, in the order of their buttons
+TOOLS = {"compare": "F2"}  # {name: its key}, in the order of their buttons
 WIDE, NARROWEST = 0.34, 18.0  # share of the window, and the least in sizes of letters
 
 
@@ -88,4 +88,8 @@ class Drawer:
 
 def _made(name, now):
     """Return a tool; what it needs is imported only here."""
+    if name == "compare":
+        from .comparison import Comparing
+
+        return Comparing()
     raise ValueError(name)

@@ -31,7 +31,7 @@ def changed(scene, key, value, where="", folder=""):
         return scene._replace(camera=scene.camera._replace(**{rest: value}))
     if key == "light":
         return scene._replace(lights=(light(str(value), where, folder),))
-    objects, lights, rest = _addressed(scene, key)
+    objects, lights, rest = addressed(scene, key)
     in_objects = [i for i in objects if _takes(scene.objects[i], rest)]
     in_lights = [i for i in lights if _lights_up(scene.lights[i], rest) and not in_objects]
     if not in_objects and not in_lights:
@@ -80,7 +80,7 @@ def found(scene, key):
         return SCENE[key], getattr(scene, key), None, key
     if first == "camera" and rest in CAMERA:
         return CAMERA[rest], getattr(scene.camera, rest), None, key
-    objects, lights, rest = _addressed(scene, key)
+    objects, lights, rest = addressed(scene, key)
     for i in objects:
         one, at = scene.objects[i], f"object.{i + 1}.{rest}"
         if rest in OBJECT:
@@ -229,7 +229,7 @@ def light_parts(spec):
     return [path + ending, *rest.split(":")[1:]] if ending else spec.split(":")
 
 
-def _addressed(scene, key):
+def addressed(scene, key):
     """Return (indices of objects, indices of lights, rest of the key) that a key may speak of."""
     first, _, rest = key.partition(".")
     number, _, last = rest.partition(".")

@@ -6,7 +6,7 @@ import time
 
 from imgui_bundle import imgui
 
-from . import banner, hands, opening, panel, picture, presenter, words
+from . import banner, gallery, hands, opening, panel, picture, presenter, snapshot, words
 from .desktop import LETTERS, Desktop, glfw
 from .document import Document
 from .drawer import TOOLS, Drawer, Now
@@ -44,6 +44,7 @@ class Viewer:
         self.fault, self.notice, self.titled = "", ("", 0.0), ""
         self.moved = self.awake = 0.0
         self.picked, self._pressed, self._place = None, None, (0.0, 0.0)
+        self._index, self._seen = 0, None  # of the picture that the mouse is on; the last step
         self.with_panel, self.with_keys, self.due = True, False, FRAMES
         self.kept, self.kept_at = None, time.monotonic()
 
@@ -71,7 +72,8 @@ class Viewer:
     def run(self):
         """Turn until the window is closed."""
         while not self.desktop.closing:
-            wait = 0.0 if self.due else 0.05 if self.document.watch.restless else IDLE
+            draws = self.due and 0 not in self.desktop.size  # but minimised
+            wait = 0.0 if draws else 0.05 if self.document.watch.restless else IDLE
             self.frame(min(wait, 0.1) if self._lingers(time.monotonic()) else wait)
 
     def frame(self, wait=0.0):
@@ -86,6 +88,7 @@ class Viewer:
             getattr(self, f"_on_{event}")(*how)
         if saved:
             self._reload(saved)
+        self._notice_step()
         if not (self.due or self._lingers(now)) or 0 in self.desktop.size:
             if now - self.kept_at > KEEP:
                 self._keep()
@@ -95,7 +98,7 @@ class Viewer:
         return True
 
     def _lingers(self, now):
-        return now < self.awake or now < self.notice[1] or self.stage.coarse
+        return now < self.awake or now < self.notice[1] or self.stage.restless
 
     def _frame(self, now):
         desktop = self.desktop
@@ -109,14 +112,17 @@ class Viewer:
             parts = self.presenter.parts(self.document.stop) if self.presents else panel.ALL
             self._push(panel.draw(self.scene, self.state, parts), self.state.gesture)
             self._wish()
-        self._push(self.drawer.draw(self._now(now)), self.state.gesture)
+        self._push(self.drawer.draw(self._now(now)), panel.gesture(self.state))
         self.due = max(self.due, 2 * self.state.restless)
+        self._notice_step()
         left, size = self._area()
-        self.stage.draw(self.scene, size, now - self.moved)
+        pictures, mode = self.document.pictures, self.document.comparison.mode
+        wanted = [(one.scene, one.fault) for one in pictures]
+        self.stage.draw(self.scene, wanted, mode, size, now - self.moved)
         self._say_over(left, size, now)
         imgui.render()
         screen = desktop.context.screen
-        self.overlay.picture(self.stage.canvas.color_attachments[0], screen, left)
+        self.stage.present(self.overlay, screen, left)
         self.overlay.widgets(imgui.get_draw_data(), screen, desktop.size)
         desktop.show()
         title = f"{self.document.name} · Lumiar".removeprefix(" · ")
@@ -166,44 +172,63 @@ class Viewer:
         points = imgui.get_io().display_size.x / self.desktop.size[0]
         area = (left * points, size[0] * points, size[1] * points)
         banner.draw(area, f"{1000.0 * self.stage.cost:.1f} ms", caption, fault, done)
+        gallery.draw(self.stage, document.said(self.state.lang), left, points, words)
         if self.with_keys:
             banner.keys(area, words["keys"])
 
     def _push(self, scene, key=None):
         if scene is not self.scene:
             self.document.push(scene, key)
-            self.fault = ""
+
+    def _notice_step(self):
+        """Take note of a change of the scene, or of what is shown beside it."""
+        if self.document.history.scene is not self._seen:
+            self._seen, self.fault = self.document.history.scene, ""
             self.due, self.moved = FRAMES, time.monotonic()
 
     def _on_press(self, button, held):
         if not self.desktop.io.want_capture_mouse:
-            self.hands.press(button, held)
+            self._index = self.stage.at(*self._local())
+            self.hands.press(button, held, self.stage.places[self._index][3])
             plain = button == glfw.MOUSE_BUTTON_LEFT and not held
             self._pressed = self._place if plain else None
 
     def _on_release(self, _):
         self.hands.release()
         if self._pressed and self._pressed == self._place:
-            self.picked = (self._place[0] - self._area()[0], self._place[1])
+            self.stage.active = index = self._index
+            corner = self.stage.places[index][:2]
+            self.picked = tuple(a - b for a, b in zip(self._local(), corner, strict=True))
         self._pressed = None
         self.document.history.push(self.document.history.scene)  # ends the step
 
     def _on_move(self, place):
         self._place = place
-        looks = self._looks() if self.hands.holds and 0 not in self.desktop.size else (None, None)
-        self._push(*self.hands.move(self.scene, *looks, place))
+        self._turn(*self.hands.move(place))
 
     def _on_wheel(self, notches):
-        if not self.desktop.io.want_capture_mouse and 0 not in self.desktop.size:
-            self._push(*self.hands.wheel(self.scene, *self._looks(), notches))
+        if not self.desktop.io.want_capture_mouse:
+            self._index = self.stage.at(*self._local())
+            self._turn(*self.hands.wheel(notches))
 
-    def _looks(self):
-        """Return the scene as framed, or the last one that could be drawn, and its viewpoint."""
-        return self.stage.looks(self.scene, self._area()[1])
+    def _turn(self, turn, key):
+        """Do what the mouse does to the picture under it, to all that are shown."""
+        if turn is None or 0 in self.desktop.size:
+            return
+
+        def turned(scene):
+            shown, view = self.stage.looks(scene, self._index)
+            return turn(scene, shown, view) if shown else scene
+
+        self.document.move(turned, key)
+
+    def _local(self):
+        """Return the pixel of the pictures' area where the mouse is."""
+        return self._place[0] - self._area()[0], self._place[1]
 
     def _on_drop(self, paths):
         for path in paths:
-            self.document.drop(path, self.state.chosen)
+            self.document.drop(path, self.state.chosen, self.stage.at(*self._local()))
         self.presents = self.presents or bool(self.document.stop)
 
     def _on_other(self):
@@ -218,7 +243,10 @@ class Viewer:
             if key in (glfw.KEY_Z, glfw.KEY_Y):
                 (document.redo if forward or key == glfw.KEY_Y else document.undo)()
         elif key == glfw.KEY_R:
-            self._push(self.scene._replace(camera=document.home.camera))
+            document.look_home()
+        elif key in _TURNS and forward and self.stage.mode == "split":
+            share = self.stage.share + 0.05 * _TURNS[key]
+            self.stage.share = max(0.0, min(1.0, share))
         elif key in _TURNS:
             document.turn(_TURNS[key])
         elif key == glfw.KEY_P:
@@ -250,7 +278,8 @@ class Viewer:
         paths = (f"lumiar-{i:03}.png" for i in itertools.count(1))
         path = next(path for path in paths if not os.path.exists(path))
         try:
-            picture.write(self.stage.shown, path, self.stage.renderer)
+            lang = self.state.lang
+            snapshot.write(self.stage, self.document, lang, path, TEXT[lang])
         except (Mistake, OSError) as error:
             self.fault = one_line(error)
         else:

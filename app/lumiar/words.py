@@ -5,6 +5,7 @@ _NAMES = {  # of values, in Portuguese; the others are written as in the GLSL fi
     "model": "modelo",
     "object": "objeto",
     "kind": "tipo",
+    "light": "luz",
     "unit": "unidade",
     "illuminant": "iluminante",
     "image": "imagem",
