@@ -68,7 +68,7 @@ def wide(viewer):
 
 
 def show(one, what):
-    one.document.compare(what)
+    one.document.beside.show(what)
     settle(one)
 
 
@@ -85,7 +85,7 @@ def rest(one):
     while True:
         one.moved, one.due = 0.0, 1
         one.frame()
-        if not one.stage.restless or time.monotonic() > deadline:
+        if not (one.stage.coarse or one.stage.busy) or time.monotonic() > deadline:
             break
         time.sleep(0.02)
     settle(one)
@@ -102,7 +102,7 @@ def click(one, look, name, last=False):
 
 def true(one, i, scene=None):
     """Return what `capture` draws of a picture's scene in its place."""
-    wanted = scene or compare.scene_of(one.document.comparison.shown[i], one.scene)
+    wanted = scene or compare.scene_of(one.document.beside.comparison.shown[i], one.scene)
     return captured(hands.framed(wanted, one.stage.places[i][2:]))
 
 
@@ -182,11 +182,11 @@ def test_what_is_compared_is_undone_like_all_else(viewer):
     viewer._push(viewer.scene.set(exposure=1.0))
     settle(viewer)
     press(viewer, glfw.KEY_Z, glfw.MOD_CONTROL)
-    assert viewer.scene == plain() and viewer.document.comparison is PAIR
+    assert viewer.scene == plain() and viewer.document.beside.comparison is PAIR
     press(viewer, glfw.KEY_Z, glfw.MOD_CONTROL)
-    assert viewer.document.comparison == Comparison() and len(viewer.stage.easels) == 1
+    assert viewer.document.beside.comparison == Comparison() and len(viewer.stage.easels) == 1
     press(viewer, glfw.KEY_Y, glfw.MOD_CONTROL)
-    assert viewer.document.comparison == PAIR and len(viewer.stage.easels) == 2
+    assert viewer.document.beside.comparison == PAIR and len(viewer.stage.easels) == 2
 
 
 def test_a_click_picks_a_pixel_of_its_own_picture(viewer):
@@ -208,7 +208,7 @@ def test_the_difference_has_the_numbers_of_the_verb(viewer, lumiar, tmp_path):
     one, names = viewer.stage.deviation, ("a.png", "b.png")
     arrays = []
     for i, name in enumerate(names):
-        scene = compare.scene_of(viewer.document.comparison.shown[i], viewer.scene)
+        scene = compare.scene_of(viewer.document.beside.comparison.shown[i], viewer.scene)
         capture(hands.framed(scene, viewer._area()[1]), str(tmp_path / name))
         arrays.append(np.asarray(Image.open(tmp_path / name), np.float64) / 255.0)
     said = json.loads(lumiar("compare", *names, "--json").stdout)
@@ -235,7 +235,7 @@ def test_a_moving_difference_has_colours_and_no_numbers(viewer):
     assert viewer.stage.deviation.numbers is None and viewer.stage.deviation.flip is None
     assert viewer.stage.deviation.ruler.high == high
     show(viewer, Comparison())
-    assert viewer.stage.deviation is None and not viewer.stage.restless
+    assert viewer.stage.deviation is None and not viewer.stage.busy
 
 
 def test_alike_pictures_do_not_differ(viewer, look):
@@ -292,7 +292,7 @@ def test_a_broken_picture_is_told_and_stays_as_it_was(viewer, tmp_path):
 
 def test_any_size_is_shown(viewer):
     for wanted in (PAIR, compare.rates(), PAIR._replace(mode="difference")):
-        viewer.document.compare(wanted)
+        viewer.document.beside.show(wanted)
         for size in ((0, 0), (1, 1), (300, 2), (3, 300), (0, 7), (401, 300)):
             glfw.set_window_size(viewer.desktop.window, *size)
             viewer.frame()
@@ -344,19 +344,25 @@ def test_a_screenshot_of_what_no_sheet_can_say(viewer, tmp_path, monkeypatch):
 
 def test_the_tool_is_found_and_works(wide, look):
     click(wide, look, "The three shading rates")
-    assert wide.document.comparison == compare.rates()
+    assert wide.document.beside.comparison == compare.rates()
     said = look(wide).said
     assert {"A   shading = flat", "B   shading = gouraud", "C   shading = phong"} <= {*said}
     click(wide, look, "1/×")
-    assert [one.values[0][1] for one in wide.document.comparison.variants] == ["flat", "phong"]
+    assert [one.values[0][1] for one in wide.document.beside.comparison.variants] == [
+        "flat",
+        "phong",
+    ]
     click(wide, look, "swap A and B")
-    assert [one.values[0][1] for one in wide.document.comparison.variants] == ["phong", "flat"]
+    assert [one.values[0][1] for one in wide.document.beside.comparison.variants] == [
+        "phong",
+        "flat",
+    ]
     click(wide, look, "A | B")
-    assert wide.document.comparison.mode == "split"
+    assert wide.document.beside.comparison.mode == "split"
     click(wide, look, "One")
     assert len(wide.stage.easels) == 1
     click(wide, look, "Keep this picture as B")
-    assert wide.document.comparison.variants == (Variant(), Variant(kept=wide.scene))
+    assert wide.document.beside.comparison.variants == (Variant(), Variant(kept=wide.scene))
     wide._push(wide.scene.set(shininess=3))
     settle(wide)
     assert "A   shininess = 3" in look(wide).said
@@ -368,22 +374,22 @@ def test_same_but_with_takes_a_click_and_a_slider_moves_it(wide, look):
     click(wide, look, "Same, but with …")
     click(wide, look, "a value")
     click(wide, look, "shininess##shininess")
-    (key, value), *_ = wide.document.comparison.variants[1].values
+    (key, value), *_ = wide.document.beside.comparison.variants[1].values
     assert key == "shininess" and value != wide.scene.objects[0].values["shininess"]
-    assert wide.document.comparison.mode == "split"
+    assert wide.document.beside.comparison.mode == "split"
     before, steps = wide.scene, len(wide.document.history._past)
     path = [path for path in look(wide).places if path.endswith("##value") and path[0] == "1"]
     left, top, right, bottom = look(wide).places[path[0]]
     middle = (top + bottom) / 2.0
     drag(wide, (left + 0.4 * (right - left), middle), (left + 0.8 * (right - left), middle))
-    moved = wide.document.comparison.variants[1].values[0][1]
+    moved = wide.document.beside.comparison.variants[1].values[0][1]
     assert moved != value and wide.scene is before
     assert len(wide.document.history._past) == steps + 1
     assert wide.stage.easels[1].shown.objects[0].values["shininess"] == moved
     click(wide, look, "but with …")
     click(wide, look, "mesh")
     click(wide, look, "torus")
-    assert dict(wide.document.comparison.variants[1].values) == {
+    assert dict(wide.document.beside.comparison.variants[1].values) == {
         "shininess": moved,
         "mesh": "torus",
     }
@@ -393,7 +399,7 @@ def test_models_are_ticked(wide, look):
     click(wide, look, "##models")
     click(wide, look, "lambert")
     click(wide, look, "blinn")
-    names = [dict(one.values)["model"] for one in wide.document.comparison.variants]
+    names = [dict(one.values)["model"] for one in wide.document.beside.comparison.variants]
     assert names == ["phong", "lambert", "blinn"]
     click(wide, look, "lambert")
     assert len(wide.stage.easels) == 2
@@ -417,7 +423,7 @@ def test_a_file_is_dropped_onto_a_picture(viewer, tmp_path):
         viewer.desktop.move(left + x + wide // 2, y + high // 2)
         viewer.desktop.events.append(("drop", [str(tmp_path / name)]))
         settle(viewer)
-    flat, red, mesh = viewer.document.comparison.variants
+    flat, red, mesh = viewer.document.beside.comparison.variants
     assert flat.values == (("shading", "flat"),) and viewer.scene == plain()
     assert red.apart and viewer.stage.easels[1].shown.camera.azimuth == 80.0
     assert viewer.stage.easels[1].shown.objects[0].values["kd"] == (1.0, 0.0, 0.0)

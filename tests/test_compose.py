@@ -3,11 +3,13 @@
 import re
 import shutil
 import subprocess
+from pathlib import Path
 
 import pytest
 
 from lumiar import catalog, compose, flatten, glsltext
 from lumiar.errors import Mistake
+from lumiar.files import GLSL
 
 LIGHTS = catalog.names("light")
 PLAIN = [name for name in LIGHTS if not catalog.read("light", name).sampled]
@@ -116,6 +118,20 @@ def test_the_reference_compiler_takes_what_is_measured(model, tmp_path):
         compose.measured(shader, constants, kind, strict)
         for kind in kinds
         for strict in (False, True)
+    ]
+    glslang(sources, tmp_path)
+
+
+@pytest.mark.parametrize("path", sorted((Path(GLSL) / "studies").iterdir()), ids=lambda p: p.stem)
+def test_the_reference_compiler_takes_the_formulas_of_studies(path, tmp_path):
+    """Every choice, one after the other."""
+    shader = catalog.read("model", str(path))
+    defaults = {p.name: p.default for p in shader.parameters if p.constant}
+    sources = [
+        compose.measured(shader, {**defaults, p.name: value}, "timed")
+        for p in shader.parameters
+        if p.constant
+        for value in (p.choices or (False, True))
     ]
     glslang(sources, tmp_path)
 

@@ -285,6 +285,18 @@ def test_strips_do_not_show(renderer, monkeypatch):
     assert np.abs(radiance(scene, renderer) - linear).max() < 5e-6  # interpolation rounds anew
 
 
+def test_a_picture_shown_some_rows_at_a_time_is_the_picture(renderer):
+    scene = lit(size=(50, 37), samples=4)
+    with renderer.context as context:
+        canvas = context.framebuffer([context.texture(scene.size, 4)])
+    for top in range(0, 37, 8):
+        renderer.show(scene, canvas, top, 8)
+    expected = capture(scene, renderer=renderer).pixels
+    with renderer.context:
+        assert canvas.read(components=3) == expected
+        renderer.free_framebuffer(canvas)
+
+
 def test_the_picture_is_upright_and_not_mirrored(renderer):
     """A small sphere up and to the right of the target is up and to the right in the picture."""
     scene = lit("ambient", camera__position=(0, 0, 10), camera__target=(0, 0, 0), fit=0.3)

@@ -212,6 +212,18 @@ def _audit(parser):
     _timeout(parser)
 
 
+def _bench(parser):
+    text = "fresnel, lobes … (default: all)"
+    parser.add_argument("studies", nargs="*", metavar="STUDY", help=text)
+    text = "for report.json, points.csv and pictures; an interrupted run goes on (default: bench)"
+    parser.add_argument("-o", "--output", default="bench", metavar="FOLDER", help=text)
+    parser.add_argument("--quick", action="store_true", help="coarser, in a tenth of the time")
+    text = "tell what changed beyond noise since an older report; exit 1 if worse"
+    parser.add_argument("--compare", metavar="OLD.json", help=text)
+    parser.add_argument("--lang", choices=("en", "pt"), help="language of the tables")
+    _timeout(parser)
+
+
 def _between(low, high):
     return lambda text: _number(text, f"a number, {low:g} to {high:g}", lambda x: low <= x <= high)
 
@@ -266,6 +278,7 @@ _VERBS = {
     "source": ("Print the GLSL of a scene, each stage exactly as compiled.", _source),
     "compare": ("Measure how picture B differs from A; exit 1 beyond a limit.", _compare),
     "audit": ("Test what models claim, and how exact and fast they are; exit 1 if broken.", _audit),
+    "bench": ("Measure speed against error, study by study.", _bench),
     "measure": ("Measure models at any angles, as a gonioreflectometer would.", _measure),
     "formfactor": ("Tell solid angles and form factors from a patch or a polygon.", _formfactor),
     "lesson": ("Draw a lesson as slides, a question before each answer.", _lesson),

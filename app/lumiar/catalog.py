@@ -78,7 +78,8 @@ class Shader(NamedTuple):
     """One GLSL file: kind is model, light or rig; name is what a scene calls it by.
 
     claims maps each claimed property to the condition it is claimed under ("" for always);
-    defines holds the names of its functions, given those of the uniforms that the host computes.
+    defines holds the names of its functions, given those of the uniforms that the host computes;
+    library counts how often files that it includes were read again since.
     """
 
     kind: str
@@ -91,10 +92,16 @@ class Shader(NamedTuple):
     defines: frozenset[str]
     parameters: tuple[Parameter, ...]
     given: tuple[str, ...] = ()
+    library: int = 0
 
     def defaults(self):
         """Return {parameter name: default value}."""
         return {parameter.name: parameter.default for parameter in self.parameters}
+
+    @property
+    def source(self):
+        """What tells its GLSL from that of others, and from its own before it was edited."""
+        return self.text, self.library
 
     @property
     def transmits(self):
@@ -155,12 +162,12 @@ def names(kind):
     return sorted(f[:-5] for f in os.listdir(folder) if f.endswith(".glsl"))
 
 
-def read(kind, name, where="", folder=""):
+def read(kind, name, where="", folder="", edited=False):
     """Return the Shader for a shipped file by its name, or for any file by its path in `folder`.
 
-    kind is model, light or rig; a path becomes the name of the Shader, in full. Raises Mistake,
-    beginning with `where` when there is no such file, and naming file:line when the file breaks the
-    contract of glsl/README.md.
+    kind is model, light or rig; a path becomes the name of the Shader, in full; edited: see
+    `parse`. Raises Mistake, beginning with `where` when there is no such file, and naming file:line
+    when the file breaks the contract of glsl/README.md.
     """
     if name.endswith(".frag" if kind == "rig" else ".glsl"):
         path = name = os.path.abspath(os.path.join(folder, os.path.expanduser(name)))
@@ -173,14 +180,22 @@ def read(kind, name, where="", folder=""):
         advice = "; a file of your own is named with its ending, as in my_model.glsl"
         raise Mistake(f"{where}no {kind} '{name}'; {nearest(name, names(kind))}{advice}")
     text = read_text(path, SOURCE_LIMIT, "a GLSL file")
-    return parse(kind, name, path, text.replace("\r\n", "\n").replace("\r", "\n"))
+    return parse(kind, name, path, unix(text), edited)
 
 
-def parse(kind, name, path, text):
-    """Return the Shader for a text; see `read`."""
+def unix(text):
+    """Return a text with its lines ended as GLSL files of ours are."""
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def parse(kind, name, path, text, edited=False):
+    """Return the Shader for a text; see `read`.
+
+    What comes with Lumiar is tested to keep the contract; edited says that it was changed since.
+    """
     ours = path.startswith(os.path.join(GLSL, ""))
-    if not ours:
-        from . import contract  # 8 ms, and what comes with Lumiar is tested to keep it
+    if edited or not ours:
+        from . import contract  # which takes 8 ms
 
         check_comments(text, path)
     code, lines = without_comments(text), text.split("\n")
@@ -207,7 +222,7 @@ def parse(kind, name, path, text):
         what = "colour of the light" if kind == "light" else "colour of what is tinted"
         parameters[TINT] = Parameter(TINT, "vec3", (1.0, 1.0, 1.0), "color", 0.0, 1.0, text=what)
     wanted = DEFINES.get(kind)
-    if ours or not wanted:
+    if not wanted or (ours and not edited):
         defines = frozenset(_FUNCTION.findall(code))
     else:
         defines = contract.check(code, path, wanted)

@@ -5,7 +5,7 @@ import sys
 
 VERBS = (
     *("view", "capture", "probe", "info", "source", "compare"),
-    *("measure", "formfactor", "audit", "lesson", "list"),
+    *("measure", "formfactor", "audit", "bench", "lesson", "list"),
 )
 HELP = """usage: lumiar VERB … (lumiar VERB --help tells more)
 
@@ -18,13 +18,14 @@ HELP = """usage: lumiar VERB … (lumiar VERB --help tells more)
   measure MODEL …  scatter, lobes and albedo of models at any angles: .csv, .npz or a picture
   formfactor       solid angles and form factors of polygons: exact, by Nusselt, by Monte Carlo
   audit [MODEL …]  the data sheet: claims tested, hard cases, float32 error, cost; 1 if broken
+  bench [STUDY …]  speed against error of what Lumiar and others do; a report in a folder
   lesson NAME      a lesson as slides, .png in a folder; a question before each answer
   list             the models, lights, meshes, materials, scenes and lessons there are
 
 SCENE is a shipped scene, a .toml file, a .png that Lumiar made, a mesh or a .glsl model.
-exit codes: 0 done; 1 the renderer or the disk failed, compare found too much, or audit a broken
-claim; 2 a mistake in what was given; 3 broken pixels under --strict; 130 and 143 interrupted and
-terminated"""
+exit codes: 0 done; 1 the renderer or the disk failed, compare found too much, bench --compare
+something worse, or audit a broken claim; 2 a mistake in what was given; 3 broken pixels under
+--strict; 130 and 143 interrupted and terminated"""
 
 
 def main():
@@ -50,11 +51,12 @@ def run(argv):
     """Run a command line in this process and return its exit code."""
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # NumPy then starts sooner; ours is small
     from .errors import Mistake, one_line
+    from .files import shortened
 
     try:
         return _dispatch(argv)
     except Mistake as mistake:
-        print(f"lumiar: {one_line(_shortened(str(mistake)))}", file=sys.stderr)
+        print(f"lumiar: {one_line(shortened(str(mistake)))}", file=sys.stderr)
         return 2
     except BrokenPipeError:
         raise  # not our disk: whoever read our output has gone, and supervise ends quietly
@@ -84,7 +86,7 @@ def _dispatch(argv):
         raise Mistake(f"no verb '{argv[0]}'; {nearest(argv[0], VERBS)}")
     from . import arguments
 
-    if argv[0] in ("measure", "formfactor", "audit"):
+    if argv[0] in ("measure", "formfactor", "audit", "bench"):
         from . import lab as verbs
     else:
         from . import verbs
@@ -102,12 +104,3 @@ def _own_fault(error):
     said = one_line(f"{type(error).__name__}: {error}")
     print(f"lumiar: a fault of Lumiar's own, at {place}: {said}; please report it", file=sys.stderr)
     return 1
-
-
-def _shortened(message):
-    """Return a message with the paths of shipped shaders and of this folder made short."""
-    from .files import GLSL
-
-    for folder in (GLSL, os.getcwd()):
-        message = message.replace(folder + os.sep, "")
-    return message

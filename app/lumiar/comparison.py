@@ -3,9 +3,9 @@
 from imgui_bundle import imgui
 
 from . import catalog, compare, geometry, labels, notation, panel, sections, settings
+from .comparing import TEXT
 from .editing import PICTURE
 from .parts import LIGHT, RATES
-from .phrases import TEXT
 from .picture import in_language
 
 
@@ -17,7 +17,7 @@ class Comparing:
 
     def draw(self, now):
         """Draw the tool and return the scene; what is compared it tells the document."""
-        words, before = TEXT[now.state.lang]["compare"], now.document.comparison
+        words, before = TEXT[now.state.lang]["compare"], now.document.beside.comparison
         comparison = _modes(before, now, words)
         imgui.separator_text(words["begin"])
         comparison = _begin(comparison, now, words)
@@ -28,7 +28,7 @@ class Comparing:
         imgui.text_disabled(words["drop"])
         imgui.pop_text_wrap_pos()
         if comparison is not before:
-            now.document.compare(comparison, panel.gesture(now.state))
+            now.document.beside.show(comparison, panel.gesture(now.state))
             now.state.restless = True
         return now.scene
 
@@ -92,7 +92,7 @@ def _models(comparison, now, words):
 
 def _pictures(comparison, now, words):
     """Draw each picture: its letter, by what it differs, and what is done with it."""
-    shown = now.document.pictures
+    shown = now.document.beside.pictures
     several = comparison.mode != "one"
     for i, (variant, one) in enumerate(zip(comparison.shown, shown, strict=True)):
         if not several:
@@ -109,7 +109,7 @@ def _pictures(comparison, now, words):
             imgui.set_item_tooltip(words["remove"])
         comparison = _picture(comparison, i, variant, one, now, words)
         imgui.pop_id()
-        if comparison is not now.document.comparison:
+        if comparison is not now.document.beside.comparison:
             return comparison
     if several and imgui.button(words["swap"]):
         return compare.swapped(comparison)

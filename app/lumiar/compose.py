@@ -164,9 +164,9 @@ def _watched(file, places, kinds, facts, names=(), paths=()):
 def _clashes(model, lights):
     """Return (names, paths): what a model declares that is in the library of the lights, too, and
     the files that are to call it otherwise: a model need not know what lights are made of."""
-    own, theirs = _library(model.text), {}
+    own, theirs = library(model.text), {}
     for light in lights:
-        theirs |= {name: one for name, one in _library(light.text).items() if name not in own}
+        theirs |= {name: one for name, one in library(light.text).items() if name not in own}
     declared = _declared(model.text) if theirs else set()
     words = re.compile(rf"\b({'|'.join(declared) or '(?!)'})\b")
     texts = [text for _, _, text in theirs.values() if words.search(text)]
@@ -174,7 +174,7 @@ def _clashes(model, lights):
     return names, {path for path, _, _ in theirs.values()} | {light.path for light in lights}
 
 
-def _library(text):
+def library(text):
     """Return {name: (path, folder, text)} of the files that GLSL includes, directly or not."""
     found, waiting = {}, [text]
     while waiting:

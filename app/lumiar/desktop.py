@@ -22,12 +22,17 @@ _KEYS = {  # where imgui's name is not glfw's
     **{"LEFT": "left_arrow", "RIGHT": "right_arrow", "UP": "up_arrow", "DOWN": "down_arrow"},
     **{f"{side}_CONTROL": f"{side.lower()}_ctrl" for side in ("LEFT", "RIGHT")},
     **{str(digit): f"_{digit}" for digit in range(10)},
-    **{f"KP_{name}": f"keypad_{name.lower()}" for name in ("ENTER", "ADD", "SUBTRACT", "DECIMAL")},
+    **{
+        f"KP_{name}": f"keypad_{name.lower()}"
+        for name in ("ENTER", "ADD", "SUBTRACT", "MULTIPLY", "DIVIDE", "DECIMAL", "EQUAL")
+    },
     **{f"KP_{digit}": f"keypad{digit}" for digit in range(10)},
 }
 _SAME = (
     *("TAB", "PAGE_UP", "PAGE_DOWN", "HOME", "END", "INSERT", "DELETE", "BACKSPACE", "SPACE"),
-    *("ENTER", "ESCAPE", "MINUS", "PERIOD", "COMMA", "SLASH", "EQUAL"),
+    *("ENTER", "ESCAPE", "MINUS", "PERIOD", "COMMA", "SLASH", "EQUAL", "MENU", "CAPS_LOCK"),
+    *("APOSTROPHE", "SEMICOLON", "LEFT_BRACKET", "RIGHT_BRACKET", "BACKSLASH", "GRAVE_ACCENT"),
+    *(f"F{number}" for number in range(1, 13)),
     *(f"{side}_{key}" for side in ("LEFT", "RIGHT") for key in ("SHIFT", "ALT", "SUPER")),
     *"ABCDEFGHIJKLMNOPQRSTUVWXYZ",
 )

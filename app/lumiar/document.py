@@ -1,32 +1,22 @@
 """What is open in the window: pages of scenes, their history, and the files they are made from."""
 
 import os
-from typing import NamedTuple
+import re
+import time
 
-from . import catalog, compare, contrast, opening
 from . import lesson as lessons
+from . import opening
+from .beside import Beside, Edit
+from .clock import Clock
 from .errors import Mistake, one_line
 from .history import History
+from .parts import SCENE
 from .scene import Scene
+from .texts import Texts, ships
 from .watch import Watch
 
-
-class Edit(NamedTuple):
-    """What a step of the history leads to: the scene, and what is shown beside it."""
-
-    scene: Scene
-    comparison: compare.Comparison
-
-
-class Shown(NamedTuple):
-    """A picture that is wanted: its Scene, or None and the line of what keeps it from being made.
-
-    caption: {language: line}, what sets it apart from the others.
-    """
-
-    scene: Scene | None
-    fault: str
-    caption: dict
+QUIET = 0.3  # seconds without a key before what is typed is looked at
+_AT_FAULT = re.compile(r"(.+?\.(?:glsl|toml)):")
 
 
 class Document:
@@ -36,38 +26,62 @@ class Document:
     name    of the scene, and path that of its file, or ""
     home    the scene as it was opened; pages and page: (captions, Scene) of a sheet, and which
     stops   of a lesson, one for each page, else []
-    fault   the line of what is wrong in a file, until it is put right
+    beside  what is shown beside the scene
+    texts   what is edited and not saved, and what is wrong in which file; restored: as it was left
     """
 
-    def __init__(self, scene, name="", path=""):
-        self.watch, self._fresh, self._memory = Watch(), {}, {}
-        self.fault, self.history, self._known = "", None, (None, None)
-        self._pictures = (None, None, [])
+    def __init__(self, scene, name="", path="", restored=False):
+        self.watch, self.texts, self._memory = Watch(), Texts(restored), {}
+        self.clock, self._running = Clock(SCENE["time"].high), (None, None)
+        self.history, self._known, self._typed, self._waiting = None, (None, None), {}, None
+        self.beside = Beside(self)
         self.open(scene, name, path)
+        self._read(self.texts.drafts)
+
+    @staticmethod
+    def expecting(load, name, path, mistake):
+        """Return a Document of a scene whose file has a mistake, opened once that is put right.
+
+        load() returns the scene. Until then the default scene is in its place. Raises the mistake
+        where it names no file that could be edited.
+        """
+        if not _at_fault(mistake):
+            raise mistake
+        document = Document(Scene.default())
+        document._expect(load, name, path, mistake)
+        return document
+
+    @property
+    def fault(self):
+        """The line of what is wrong in a file of the scene, until it is put right."""
+        faults = self.texts.faults
+        return next((faults[path] for path in ("", *self.files) if path in faults), "")
+
+    @property
+    def awaits(self):
+        """Whether a file has to be put right before its scene can be opened."""
+        return self._waiting is not None
+
+    @property
+    def files(self):
+        """The paths of the files that hold text: awaited, of the scene, its models and lights."""
+        awaited = [self._waiting[-1]] if self._waiting else []
+        own = [self.path] if self.path else []
+        shaders = [shader.path for shader in self._shaders]
+        return [*dict.fromkeys((*awaited, *own, *shaders))]
 
     @property
     def scene(self):
-        """The scene as it is, its shaders as their files are."""
+        """The scene as it is, its shaders as their files are, its time where the clock runs."""
         if self._known[0] is not self.history.scene.scene:
-            now = opening.renewed(self.history.scene.scene, self._fresh, self._memory)
+            now = opening.renewed(self.history.scene.scene, self.texts.fresh, self._memory)
             self._known = (self.history.scene.scene, now)
-        return self._known[1]
-
-    @property
-    def comparison(self):
-        """The Comparison that says what is shown beside the scene."""
-        return self.history.scene.comparison
-
-    @property
-    def pictures(self):
-        """The pictures of the comparison, each a Shown."""
-        scene, comparison, found = self._pictures
-        if scene is not self.scene or comparison is not self.comparison:
-            made = [self._made(i, one) for i, one in enumerate(self.comparison.shown)]
-            said = compare.captions(self.comparison, [one for one, _ in made])
-            found = [Shown(*one, words) for one, words in zip(made, said, strict=True)]
-            self._pictures = (self.scene, self.comparison, found)
-        return found
+        if not self.clock.runs:
+            return self._known[1]
+        still, time = self._known[1], self.clock.time
+        if self._running[0] is not still or self._running[1].time != time:
+            self._running = (still, still._replace(time=time))
+        return self._running[1]
 
     @property
     def caption(self):
@@ -92,36 +106,34 @@ class Document:
             self.page += step
             self._begin()
 
-    def said(self, lang):
-        """Return the captions of the pictures in a language, after their letters."""
-        found = []
-        for letter, variant, one in zip(
-            compare.LETTERS, self.comparison.shown, self.pictures, strict=False
-        ):
-            line = one.caption.get(lang) or one.caption.get("en", "")
-            found.append(line if variant.caption and not variant.kept else f"{letter}   {line}")
-        return found
-
     def push(self, scene, key=None):
         """Make a scene the one that is; see `History.push`."""
         if scene is not self.scene:
-            self._step(Edit(scene, self.comparison), key)
+            self.step(Edit(scene, self.beside.comparison), key)
 
-    def compare(self, comparison, key=None):
-        """Show something else beside the scene; see `History.push`."""
-        if comparison is not self.comparison:
-            self._step(Edit(self.scene, comparison), key)
+    def step(self, edit, key=None):
+        """Make an Edit the one that is; see `History.push`."""
+        self.texts.faults.pop("", None)
+        if self.clock.runs and edit.scene.time != self.scene.time:  # set by hand
+            self.clock.start(time.monotonic(), edit.scene.time)
+        self.history.push(edit, key)
+        self._follow()
 
-    def move(self, turn, key):
-        """Move camera or light of all pictures: turn(scene) gives a scene in which it is moved."""
-        comparison, scene = compare.moved(self.comparison, self.scene, turn)
-        if (scene, comparison) != (self.scene, self.comparison):
-            self._step(Edit(scene, comparison), key)
+    def play(self):
+        """Let the time of the scene run, or stop it where it is, as a step to undo."""
+        if self.clock.runs:
+            scene = self.scene
+            self.clock.stop()
+            self.push(scene)
+        elif uses_time(self.scene):
+            self.clock.start(time.monotonic(), self.scene.time)
 
-    def look_home(self):
-        """Look at all pictures as when they were opened."""
-        scene = self.scene._replace(camera=self.home.camera)
-        self._step(Edit(scene, compare.looking_as(self.comparison, self._beside)))
+    def tick(self, now):
+        """Take that it is now; return whether the time of the scene runs."""
+        if self.clock.runs and not uses_time(self.scene):
+            self.clock.stop()
+        self.clock.tick(now)
+        return self.clock.runs
 
     def undo(self):
         """Go back a step."""
@@ -136,45 +148,108 @@ class Document:
     def drop(self, path, chosen=0, onto=0):
         """Bring a file into the scene, or open it if it is one; chosen: the object meant.
 
-        onto: which picture is meant, where several are shown; the first one is the scene.
+        onto: the index of the picture that is meant, where several are shown.
         """
         try:
-            if onto and not lessons.is_lesson(path):
-                self.compare(self._dropped(path, chosen, onto))
-                self.fault = ""
-                return
             scene = lessons.load(path) if lessons.is_lesson(path) else None
+            if onto and not scene:
+                self.beside.drop(path, chosen, onto)
+                return
             scene = scene or opening.dropped(self.scene, path, chosen)
             if opening.is_scene(path):
                 self.open(scene, os.path.splitext(os.path.basename(path))[0], path)
             else:
                 self.push(scene)
-            self.fault = ""
+            self.texts.faults.pop("", None)
         except (Mistake, OSError) as mistake:
-            self.fault = one_line(mistake)
+            self.texts.faults[""] = one_line(mistake)
 
     def reload(self, paths=None):
         """Read files again that were saved, or all; return the names of those that could be."""
-        own = {self.path} if self.path else set()
-        paths = {*self._sources(), *own} if paths is None else set(paths)
+        paths = {*self._followed} if paths is None else {*paths}
+        if self._waiting and self._waiting[-1] in paths:
+            self._expect(*self._waiting[:3])
+        if self.path in paths:
+            self._load_again()
+        files = self.texts.saved(paths)
+        self.texts.faults.pop("", None)
+        self._read(files)
+        faults = self.texts.faults
+        return sorted(os.path.basename(path) for path in files if path not in faults)
+
+    def edit(self, path, text, now):
+        """Take what is typed for a file, without saving it; now in seconds."""
+        self.texts.edit(path, text)
+        self._typed[path] = now
+
+    def look(self, now, at_once=False):
+        """Have what was typed in the scene, once it rests; return whether there was anything."""
+        quiet = [path for path, at in self._typed.items() if at_once or now - at >= QUIET]
+        for path in quiet:
+            del self._typed[path]
+        if quiet:
+            self._read(quiet)
+        return bool(quiet)
+
+    def revert(self, path):
+        """Have a file as it is saved, not as edited."""
+        self.texts.forget(path)
+        self._read([path])
+
+    def take_up(self, path):
+        """Have a file as edited when the last window was closed."""
+        self.texts.take(path)
+        self._read([path])
+
+    def rename(self, path, copy):
+        """Have the scene use a copy, just written, of the file of a model or a light."""
+        self.texts.forget(path)
+        fresh = self.texts.fresh.pop(path, None)
+        scene = opening.renamed(self.scene, path, copy)
+        self._known = (None, None)
+        if fresh:
+            self.texts.fresh[copy] = fresh._replace(name=copy, path=copy)
+        self.push(scene)
+        self._read([copy])
+
+    def _read(self, paths):
+        """Read those Shaders of the scene again that are files of such paths, or include them."""
+        texts = self.texts
+        for shader in {one.path: one for one in self._shaders}.values():
+            if shader.path in paths or not texts.libraries([shader]).isdisjoint(paths):
+                made = texts.read(shader, paths)
+                texts.fresh |= {made.path: made} if made else {}
+        self._known = (None, None)
+        self.beside.stale()
+        self._follow()
+
+    def _load_again(self):
+        """Read the file of the scene again."""
         try:
-            if paths & own:
-                is_lesson = lessons.is_lesson(self.path)
-                self._take((lessons.load if is_lesson else Scene.load)(self.path))
-                self.page = min(self.page, len(self.pages) - 1)
-                self._begin()
-            shaders = {
-                shader.path: catalog.read(shader.kind, shader.name)
-                for one in self._scenes()
-                for shader in opening.shaders(one)
-                if shader.path in paths
-            }
+            is_lesson = lessons.is_lesson(self.path)
+            self._take((lessons.load if is_lesson else Scene.load)(self.path))
         except Mistake as mistake:
-            self.fault = one_line(mistake)
-            return []
-        self._fresh |= shaders
-        self._known, self._pictures, self.fault = (None, None), (None, None, []), ""
-        return sorted(map(os.path.basename, paths))
+            self.texts.faults[self.path] = one_line(mistake)
+            return
+        self.texts.faults.pop(self.path, None)
+        self.page = min(self.page, len(self.pages) - 1)
+        self._begin()
+
+    def _expect(self, load, name, path, mistake=None):
+        """Open the scene that load() returns; where it has a mistake, keep waiting for it."""
+        if self._waiting:
+            self.texts.faults.pop(self._waiting[-1], None)
+        if not mistake:
+            try:
+                self.open(load(), name, path)
+                self._waiting = None
+                return
+            except Mistake as again:
+                mistake = again
+        file = _at_fault(mistake) or self._waiting[-1]
+        self.texts.faults[file] = one_line(mistake)
+        self._waiting = (load, name, path, file)
+        self._follow()
 
     def _take(self, scene):
         """Take the pages of a Scene or of a Lesson."""
@@ -183,56 +258,41 @@ class Document:
         self.pages = [(shot.caption, shot.scene) for shot in shots] or opening.pages(scene)
 
     def _begin(self):
-        self.home, compared = self.pages[self.page][1], compare.Comparison()
-        self._beside = compared
+        self.clock.stop()
+        self.home = self.pages[self.page][1]
         if self.history and not self.stops:
-            self.history.push(Edit(self.home, self.comparison))
+            self.history.push(Edit(self.home, self.beside.comparison))
         else:
-            self.history = History(Edit(self.home, compared))
+            self.history = History(Edit(self.home, self.beside.home))
         self._follow()
 
-    def _step(self, edit, key=None):
-        self.history.push(edit, key)
-        self._follow()
+    @property
+    def _followed(self):
+        """The paths of all files that the scene is made from."""
+        sources = (path for one in self.beside.scenes for path in opening.sources(one))
+        libraries = self.texts.libraries(self._shaders)
+        return [*dict.fromkeys((*self.files, *sources, *self.beside.files, *libraries))]
 
-    def _made(self, index, variant):
-        """Return (scene, line of what is wrong) of a picture."""
-        try:
-            one = compare.scene_of(variant, self.scene)
-        except (Mistake, OSError) as mistake:
-            return None, one_line(mistake)
-        if variant.kept:
-            one = opening.renewed(one, self._fresh, self._memory.setdefault(index, {}))
-        return one, ""
-
-    def _dropped(self, path, chosen, onto):
-        """Return the comparison with a file in one of its pictures."""
-        variant = self.comparison.shown[onto]
-        before = compare.scene_of(variant, self.scene)
-        scene = opening.dropped(before, path, chosen)
-        if opening.is_scene(path):
-            name = os.path.splitext(os.path.basename(path))[0]
-            _, scene = opening.pages(scene)[0]
-            made = compare.Variant(
-                kept=scene, apart=True, caption=dict.fromkeys(("en", "pt"), name)
-            )
-        else:
-            made = variant._replace(kept=scene, caption={})
-            pairs = contrast.differences(before, scene)
-            if variant.kept is None and pairs is not None:
-                old = {key: value for key, value in variant.values if key not in dict(pairs)}
-                made = compare.Variant((*old.items(), *pairs))
-        return compare.replaced(self.comparison, onto, made)
-
-    def _scenes(self):
-        """Return the scene, and those beside it."""
-        return [self.scene, *(one.scene for one in self.pictures if one.scene)]
-
-    def _sources(self):
-        named = (value for one in self.comparison.variants for _, value in one.values)
-        files = (value for value in named if isinstance(value, str) and os.path.isabs(value))
-        found = (path for one in self._scenes() for path in opening.sources(one))
-        return list(dict.fromkeys((*found, *files)))
+    @property
+    def _shaders(self):
+        """The Shaders of the scene, and of those beside it."""
+        return [shader for one in self.beside.scenes for shader in opening.shaders(one)]
 
     def _follow(self):
-        self.watch.follow([*self._sources(), *([self.path] if self.path else [])])
+        before = self.watch.paths
+        self.watch.follow(self._followed)
+        back = [path for path in self.texts.fresh if path in self.watch.paths - before]
+        if back:  # they may have been saved while the scene had no use for them
+            self._read(back)
+
+
+def uses_time(scene):
+    """Return whether a model or a light of a scene changes with its time."""
+    return any(p.widget == "time" for shader in opening.shaders(scene) for p in shader.parameters)
+
+
+def _at_fault(mistake):
+    """Return the path of the file that a Mistake names, or None."""
+    found = _AT_FAULT.match(str(mistake))
+    path = os.path.abspath(found.group(1)) if found else ""
+    return path if os.path.isfile(path) and not ships(path) else None

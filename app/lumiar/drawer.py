@@ -6,8 +6,14 @@ from imgui_bundle import imgui
 
 from .words import TEXT
 
-TOOLS = {"compare": "F2"}  # {name: its key}, in the order of their buttons
+TOOLS = {
+    "compare": "F2",
+    "sheet": "F4",
+    "editor": "F7",
+    "film": "F8",
+}  # {name: its key}, in the order of their buttons
 WIDE, NARROWEST = 0.34, 18.0  # share of the window, and the least in sizes of letters
+WIDER = {"editor": 0.42}  # share for what has long lines
 
 
 class Now(NamedTuple):
@@ -21,6 +27,7 @@ class Now(NamedTuple):
     state    panel.State; words: those of its language
     stage    the picture, with its renderer and context; images: Overlay, see `image` there
     document what is open, and its files
+    time     of this frame, in seconds
     """
 
     scene: object
@@ -34,13 +41,15 @@ class Now(NamedTuple):
     stage: object
     images: object
     document: object
+    time: float
 
 
 class Drawer:
     """The window of ImGui in which the open tool stands; release it.
 
     A tool has `draw(now)`, which draws its widgets and returns the scene, and `release()`. It sets
-    now.state.restless where it has to be drawn once more, though nothing happens.
+    now.state.restless where it has to be drawn once more, though nothing happens; and
+    now.state.wake where that is so at a later moment.
     """
 
     def __init__(self):
@@ -72,7 +81,8 @@ class Drawer:
         room, height = area.work_size
         right = area.work_pos.x + room
         imgui.set_next_window_pos((right, area.work_pos.y), 0, (1.0, 0.0))
-        imgui.set_next_window_size((max(NARROWEST * em, WIDE * room), height), imgui.Cond_.once)
+        wide = max(NARROWEST * em, WIDER.get(self.open, WIDE) * room)
+        imgui.set_next_window_size((wide, height), imgui.Cond_.once)
         most = max(NARROWEST * em, 0.7 * room)
         imgui.set_next_window_size_constraints((NARROWEST * em, height), (most, height))
         flags = imgui.WindowFlags_.no_move | imgui.WindowFlags_.no_collapse
@@ -92,4 +102,16 @@ def _made(name, now):
         from .comparison import Comparing
 
         return Comparing()
+    if name == "sheet":
+        from .datasheet import Datasheet
+
+        return Datasheet(now)
+    if name == "editor":
+        from .editor import Editor
+
+        return Editor()
+    if name == "film":
+        from .filming import Filming
+
+        return Filming()
     raise ValueError(name)

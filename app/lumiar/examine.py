@@ -24,7 +24,7 @@ class Examination:
     def __init__(self, model, instrument, seed):
         self.model, self.instrument, self.seed = model, instrument, seed
         self.both = model.transmits
-        self.references = _references(model)
+        self.references = references(model)
         w = hostile.directions(model.defaults())
         above = w if self.both else w[w[:, 2] > hostile.BELOW * 2]
         self.L = np.repeat(w, len(above), axis=0)
@@ -200,42 +200,15 @@ class Examination:
 
     def _error(self, values, corner, what):
         """Compare float32 with float64, and with what the rounding of float32 input alone does."""
-        L, V = self.fair
+        reference = self.references[what]
         found = getattr(self.instrument, what)(self.model, values, self.compared)
-        given = self.model.in_radians(values)
-        true = self._true(what, L, V, given)
-        if true is None:
+        try:
+            figures = deviation(self.model, values, what, reference, found, *self.fair)
+        except (TypeError, KeyError):
             self.references.pop(what)  # another model of that name
             return
-        counted = true > PEAK * true.max(initial=0.0)
-        if not counted.any():
-            return
-        size = np.where(counted, true, 1.0)
-        error = np.where(counted, np.abs(found.astype(np.float64) - true) / size, 0.0)
-        inherent = np.zeros_like(error)
-        for seed in range(MOVES):
-            moved = self._true(what, *hostile.moved(L, V, seed), hostile.rounded(given, seed))
-            inherent = np.maximum(inherent, np.where(counted, np.abs(moved - true) / size, 0.0))
-        beyond = np.maximum(error - 3.0 * inherent, 0.0)
-        i = int(beyond.max(axis=1).argmax())
-        self.found["corners" if corner else "default"].append(
-            {
-                "max": float(error.max()),
-                "p99": float(np.quantile(error[counted], 0.99)),
-                "inherent": float(error.max() - beyond.max()),
-                "beyond": float(beyond.max()),
-                "where": f"{_degrees(L[i])}, {_degrees(V[i])}; {self.model.changes(values)}",
-            }
-        )
-
-    def _true(self, what, L, V, given):
-        """Return the reference's values (n, 3), None where it takes other parameters."""
-        try:
-            if what == "surround":
-                return np.maximum(self.references[what](V, np.ones_like, **given), 0.0)
-            return self.references[what](L, V, **given)
-        except (TypeError, KeyError):
-            return None
+        if figures:
+            self.found["corners" if corner else "default"].append(figures)
 
     def _place(self, values, i, what):
         if what == "surround":
@@ -243,7 +216,42 @@ class Examination:
         return f"{_degrees(self.L[i])}, {_degrees(self.V[i])}; {self.model.changes(values)}"
 
 
-def _references(model):
+def deviation(model, values, what, reference, found, L, V):
+    """Return how far float32 is off float64, relative to it, as `audit.audit` tells; None in black.
+
+    what is "scatter" or "surround", and found (n, 3) what the card says of it for L, V (n, 3);
+    reference is one of `references`, which raises TypeError or KeyError where it is of another
+    model. inherent is what the rounding of float32 input alone does, beyond the error without it.
+    """
+    given = model.in_radians(values)
+
+    def true(L, V, given):
+        if what == "surround":
+            return np.maximum(reference(V, np.ones_like, **given), 0.0)
+        return reference(L, V, **given)
+
+    exact = true(L, V, given)
+    counted = exact > PEAK * exact.max(initial=0.0)
+    if not counted.any():
+        return None
+    size = np.where(counted, exact, 1.0)
+    error = np.where(counted, np.abs(found.astype(np.float64) - exact) / size, 0.0)
+    inherent = np.zeros_like(error)
+    for seed in range(MOVES):
+        moved = true(*hostile.moved(L, V, seed), hostile.rounded(given, seed))
+        inherent = np.maximum(inherent, np.where(counted, np.abs(moved - exact) / size, 0.0))
+    beyond = np.maximum(error - 3.0 * inherent, 0.0)
+    i = int(beyond.max(axis=1).argmax())
+    return {
+        "max": float(error.max()),
+        "p99": float(np.quantile(error[counted], 0.99)),
+        "inherent": float(error.max() - beyond.max()),
+        "beyond": float(beyond.max()),
+        "where": f"{_degrees(L[i])}, {_degrees(V[i])}; {model.changes(values)}",
+    }
+
+
+def references(model):
     """Return {"scatter": function, "surround": function} of `reference` for what a file says it is.
 
     That is a model of ours with its file name or its title: a copy is held against the original.

@@ -1,6 +1,7 @@
 """Where Lumiar's files lie, and writing one whole or not at all."""
 
 import contextlib
+import itertools
 import mmap
 import os
 import sys
@@ -18,6 +19,13 @@ def _find_root():
 ROOT = _find_root()
 GLSL = os.path.join(ROOT, "glsl")
 ASSETS = os.path.join(ROOT, "assets")
+
+
+def shortened(message):
+    """Return a message with the paths of shipped shaders and of this folder made short."""
+    for folder in (GLSL, os.getcwd()):
+        message = message.replace(folder + os.sep, "")
+    return message
 
 
 def cache_folder():
@@ -88,6 +96,12 @@ def read_text(path, limit, what):
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         raise Mistake(f"{path}:{line}: not UTF-8 text; save it with UTF-8 encoding") from None
+
+
+def unused(stem, ending, folder=""):
+    """Return the first of `stem-001.ending`, `stem-002.ending`, … that is not there yet."""
+    paths = (os.path.join(folder, f"{stem}-{i:03}{ending}") for i in itertools.count(1))
+    return next(path for path in paths if not os.path.lexists(path))
 
 
 def write_whole(path, chunks):

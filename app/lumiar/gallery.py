@@ -2,7 +2,9 @@
 
 from imgui_bundle import imgui
 
-from . import banner
+from . import banner, phrases
+from .comparing import TEXT
+from .picture import in_language
 
 _LINE, _EDGE = (1.0, 1.0, 1.0, 1.0), (0.0, 0.0, 0.0, 0.75)
 _STRIPS = 96  # of one colour each, in the bar of a scale
@@ -16,16 +18,23 @@ _BARE = (
 )
 
 
-def draw(stage, captions, left, points, words):
+def caption(document, lang):
+    """Return the line below the pictures of a Document: which page it is, and what is on it."""
+    stop, said = document.stop, in_language(document.caption, lang)
+    at = (stop.number, stop.steps) if stop else (document.page + 1, len(document.pages))
+    page = phrases.TEXT[lang]["page"].format(*at) if at[1] > 1 else ""
+    return f"{page}   {said}".strip()
+
+
+def draw(stage, captions, left, points, lang):
     """Write over the pictures of a Stage what they are, and let the line between two be dragged.
 
     captions  of each picture; left: where they begin, in pixels; points: imgui's in a pixel
-    words     phrases.TEXT of a language
     """
     if stage.mode == "split":
         _split(stage, captions, left, points)
     elif stage.mode == "difference":
-        _legend(stage, captions, left, points, words["difference"])
+        _legend(stage, captions, left, points, TEXT[lang]["difference"])
     elif stage.mode == "grid":
         for i, (text, place) in enumerate(zip(captions, stage.places, strict=True)):
             x, y, wide, high = (points * one for one in place)
@@ -71,7 +80,7 @@ def _split(stage, captions, left, points):
     if held or near:
         imgui.set_mouse_cursor(imgui.MouseCursor_.resize_ew)
     if held and width > 0.0:
-        stage.share = max(0.0, min(1.0, (imgui.get_io().mouse_pos.x - start) / width))
+        stage.slide((imgui.get_io().mouse_pos.x - start) / width - stage.share)
     _line(x, height, grab, held or near)
     imgui.end()
     imgui.pop_style_var(2)

@@ -11,7 +11,8 @@ class Hands:
     """What the mouse is doing to the picture that it began on.
 
     What it does is a function of (Scene, that scene as drawn, its (eye, target)) that returns the
-    Scene; with it comes a key for History. None, None where it does nothing.
+    Scene, the same where nothing could be drawn; with it comes a key for History. None, None where
+    it does nothing.
     """
 
     def __init__(self):
@@ -47,10 +48,12 @@ class Hands:
         turn = navigate.orbit if self._doing == "orbit" else navigate.pan
 
         def turned(scene, shown, view):
+            if shown is None:
+                return scene
             return _with_camera(scene, turn(shown.camera, *view, dx, dy))
 
-        def swung(scene, _, view):
-            return _swung(scene, view, dx, dy)
+        def swung(scene, shown, view):
+            return scene if shown is None else _swung(scene, view, dx, dy)
 
         return swung if self._doing == "light" else turned, (self._doing, self._drags)
 
@@ -58,6 +61,8 @@ class Hands:
         """Take a turn of the wheel; return what it does, and a key."""
 
         def zoomed(scene, shown, view):
+            if shown is None:
+                return scene
             return _with_camera(scene, navigate.zoom(shown.camera, *view, notches))
 
         return zoomed, "wheel"

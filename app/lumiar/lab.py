@@ -1,4 +1,4 @@
-"""What the measuring verbs, `measure`, `formfactor` and `audit`, do with their options."""
+"""What the measuring verbs, measure, formfactor, audit and bench, do with their options."""
 
 import os
 import sys
@@ -10,6 +10,7 @@ from .verbs import check_folder
 
 PICTURES = ".png, .svg or .pdf"
 AUDIT_TIME = 900.0  # seconds: every model there is takes about a minute
+BENCH_TIME = 3600.0  # all studies take a quarter of that
 
 
 def audit(options):
@@ -173,6 +174,52 @@ def formfactor(options):
         lang, ending = options.lang or system_language(), _ending(options.output)
         files.write_whole(options.output, [hemisphere.picture(found, target, lang, ending)])
     return 0
+
+
+def bench(options):
+    """Do studies of speed against error; 1 when --compare finds something worse."""
+    limit_time(options.timeout or BENCH_TIME)
+    from . import benching, ledger
+    from .scenefile import system_language
+
+    lang = options.lang or system_language()
+    names = benching.chosen(options.studies)
+    if os.path.exists(options.output) and not os.path.isdir(options.output):
+        raise Mistake(f"{options.output}: is a file; name a folder for the report")
+    old = ledger.read(options.compare) if options.compare else None
+
+    def told(kind, value):
+        if kind == "done":
+            print(f"{ledger.table(value, lang)}\n", flush=True)
+        elif kind == "made":
+            facts = [
+                f"{value['renderer']}; {value['cpu']}, {value['cores']} cores; {value['clock']}"
+            ]
+            facts.append(f"Lumiar {value['lumiar']} {value['commit']}; {value['date']}")
+            print(*facts, "", sep="\n", flush=True)
+        else:
+            _tell_of_bench(kind, value, options.output)
+
+    report = benching.run(names, options.output, options.quick, told)
+    print(ledger.TEXT[lang]["front"])
+    print(os.path.join(options.output, "report.json"))
+    if not old:
+        return 0
+    lines, worse = ledger.changes(old, report)
+    print(*lines or [f"{options.compare}: nothing changed beyond noise"], sep="\n")
+    return int(worse)
+
+
+def _tell_of_bench(kind, value, folder):
+    """Say on standard error how far a bench is, and what becomes of an older report."""
+    if kind == "begun":
+        name, share, left = value
+        text = f"{name}, {share:.0%} of the studies done, about {left:.0f} s left"
+    elif kind == "kept":
+        text = f"goes on: {', '.join(value)} done already"
+    else:
+        text = f"the report there is {value}; begins anew"
+    print(f"lumiar: {folder}: {text}", file=sys.stderr, flush=True)
 
 
 def _check_file(path, endings):

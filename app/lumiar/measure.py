@@ -5,19 +5,18 @@ graphics card in float32, the very text that draws pictures (`compose.measured`)
 """
 
 import math
-import statistics
-import time
 from typing import NamedTuple
 
 import numpy as np
 
-from . import catalog, compose, layout
+from . import catalog, compose, layout, timing
 from .card import OnCard, compiled
 
 WIDTH = 1024  # pairs in a row of a texture
-CALM = 9  # runs whose median is a time
-TIMED = (256, 64)  # pixels a side and repeats of a timed run
-NOTHING = "// model   Nothing\nvec3 scatter(vec3 L, vec3 V) { return vec3(0.0); }\n"
+TIMED = (256, 8)  # pixels a side and the least repeats of a timed run
+LONG = 4e-3  # seconds of a timed run: others rarely interrupt it, and its start does not count
+EMPTY = "// model   Nothing\nvec3 scatter(vec3 L, vec3 V) { return vec3(0.0); }\n"
+NOTHING = catalog.parse("model", "nothing", "nothing.glsl", EMPTY), {}
 
 
 class Pairs(NamedTuple):
@@ -35,6 +34,7 @@ class Instrument(OnCard):
     def __init__(self, context=None):
         super().__init__(context)
         self._programs, self._pairs, self._timed = {}, [], None
+        self._repeats, self._clock = 0, None  # of a timed run, see costs
 
     def _free(self):
         for program, array in self._programs.values():
@@ -91,33 +91,49 @@ class Instrument(OnCard):
         return found
 
     def cost(self, model, values):
-        """Return (ns of an evaluation, its interquartile range), those of an empty model taken off.
+        """Return (ns of an evaluation, width of its interval), those of an empty model taken off.
 
-        The median over CALM runs, alternating with the empty model's, on directions that are all
-        above the surface. Only its ratio to another model's on the same machine means anything.
+        Only its ratio to another model's on the same machine means anything.
         """
-        pairs = self._timed_pairs()
-        nothing = catalog.parse("model", "nothing", "nothing.glsl", NOTHING)
-        jobs = ((nothing, {}), (model, values))
-        with self.context:  # which does not nest
-            spent = [self._race(jobs, pairs) for _ in range(CALM + 1)]
-        low, middle, high = statistics.quantiles(spent[1:], n=4)  # the first one compiled
-        return middle, high - low
+        found = self.costs([(model, values)], 0.1)[0]
+        return found.cost, found.high - found.low
 
-    def _race(self, jobs, pairs):
-        """Return how many ns longer an evaluation of the second (model, values) takes."""
-        spent = []
-        for one, its in jobs:
-            array = self._prepared(one, its, "timed", TIMED[1])
-            pairs.target.use()
-            pairs.L.use(0)
-            pairs.V.use(1)
-            self.context.finish()
-            start = time.perf_counter()
-            array.render(vertices=3)
-            self.context.finish()
-            spent.append(time.perf_counter() - start)
-        return (spent[1] - spent[0]) * 1e9 / (TIMED[0] ** 2 * TIMED[1])
+    def costs(self, jobs, seconds, clock=None):
+        """Return a timing.Timing in ns of an evaluation for each of the (model, values).
+
+        They race each other and an empty model, whose time is taken off, for about so many seconds,
+        on directions that are all above the surface. clock: `timing.believed`'s, unless given.
+        """
+        if not (clock or self._clock):
+            self._clock = timing.believed(self.context, [self.timed(*NOTHING, 64)])
+        clock = clock or self._clock
+        runs, count = self.racers(jobs, clock)
+        found = timing.race(runs, clock, seconds, empty=0, spread=True)
+        return [one.per(count) for one in found[1:]]
+
+    def racers(self, jobs, clock):
+        """Return [job, …] of a run of the empty model and of each (model, values), evaluations."""
+        if not self._repeats:  # a run long enough to be timed, whatever the card
+            self._repeats = TIMED[1]
+            clock.time(self.timed(*NOTHING))
+            while clock.time(self.timed(*NOTHING))[1] < LONG and self._repeats < 1 << 14:
+                self._repeats *= 2
+        return [self.timed(*job) for job in (NOTHING, *jobs)], TIMED[0] ** 2 * self._repeats
+
+    def timed(self, model, values, repeats=None):
+        """Return the job of evaluating a model at all pixels of a timed run, again and again."""
+        repeats = repeats or self._repeats
+
+        def job():
+            pairs = self._timed_pairs()
+            with self.context:
+                array = self._prepared(model, values, "timed", repeats)
+                pairs.target.use()
+                pairs.L.use(0)
+                pairs.V.use(1)
+                array.render(vertices=3)
+
+        return job
 
     def _timed_pairs(self):
         """Return Pairs above the surface, spread evenly, in a square texture of TIMED pixels."""
@@ -158,7 +174,7 @@ class Instrument(OnCard):
     def _prepared(self, model, values, what, repeats=0, strict=False):
         """Return the vertex array that evaluates a model with these values, compiled once."""
         constants = model.constants(values)
-        key = (model.text, what, strict, *constants.items())
+        key = (model.source, what, strict, *constants.items())
         if key not in self._programs:
             program = compiled(self.context, compose.measured(model, constants, what, strict))
             self._programs[key] = program, self.context.vertex_array(program, [])
@@ -166,7 +182,12 @@ class Instrument(OnCard):
         for name, value in layout.packed(model, values, 0.0, "").items():
             if name in program:
                 program[name].write(value)
-        for name, value in (("rig_L", 0), ("rig_V", 1), ("rig_repeats", repeats)):
+        for name, value in (
+            ("rig_L", 0),
+            ("rig_V", 1),
+            ("rig_repeats", repeats),
+            ("rig_tiny", 1e-30),
+        ):
             if name in program:
                 program[name].value = value
         self.context.enable_only(0)

@@ -93,7 +93,7 @@ def renewed(scene, shaders, memory):
 
 def _renewed(one, field, shader, memory):
     old = getattr(one, field)
-    if shader is None or shader.text == old.text:
+    if shader is None or shader.source == old.source:
         return one
     given = {(old.path, p.name): one.values[p.name] for p in old.parameters}
     fresh = {(old.path, p.name): p.default for p in old.parameters}
@@ -109,6 +109,18 @@ def _renewed(one, field, shader, memory):
         except Mistake:
             continue  # its domain has changed: the new default stays
     return one._replace(**{field: shader}, values=values)
+
+
+def renamed(scene, path, copy):
+    """Return the scene with the Shaders of one path as those of another, which holds the same."""
+
+    def other(one, field):
+        shader = getattr(one, field)
+        renamed = shader._replace(name=copy, path=copy)
+        return one._replace(**{field: renamed}) if shader.path == path else one
+
+    objects = tuple(other(one, "model") for one in scene.objects)
+    return scene._replace(objects=objects, lights=tuple(other(one, "kind") for one in scene.lights))
 
 
 def keep(scene):

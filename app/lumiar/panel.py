@@ -1,5 +1,6 @@
 """The panel of the window: a pure function from a Scene to the Scene as edited in it. No OpenGL."""
 
+import math
 import os
 from dataclasses import dataclass
 
@@ -24,9 +25,11 @@ class State:
     view      (eye, target) of the picture as it is, at which values that were left out begin
     width     of the panel, in pixels of the screen
     restless  whether it has to be drawn once more, until all has its size
+    wake      when, by time.monotonic, it has to be drawn once more though nothing happens
     tools     the names of those that the window has, and tool the open one
-    wish      what a button asks the window for: "undo", "redo", or one of the tools
+    wish      what a button asks the window for: "undo", "redo", "play", or one of the tools
     able      which of undo and redo would do something
+    runs      whether the time of the scene does
     """
 
     lang: str = ""
@@ -37,10 +40,12 @@ class State:
     width: float = 0.0
     holds: int = 0
     restless: bool = False
+    wake: float = math.inf
     tools: tuple = ()
     tool: str = ""
     wish: str = ""
     able: tuple = ()
+    runs: bool = False
 
 
 def prepare(size=16.0):

@@ -8,11 +8,10 @@ import moderngl
 
 from . import camera, compose, layout
 from .card import OnCard, compiled
-from .errors import Mistake
 from .stock import Stock
+from .targets import Targets
 
 STRIP = 1 << 23  # samples drawn at a time: bounds the memory (180 MB) and the longest wait
-COMMON = 8192  # pixels a side that every driver draws; asking it takes a millisecond
 
 
 class _Job(NamedTuple):
@@ -31,8 +30,8 @@ class Renderer(OnCard):
 
     def __init__(self, context=None):
         super().__init__(context)
-        self._programs, self._screens, self._targets = {}, {}, {}
-        self._stock = Stock(self.context)
+        self._programs, self._screens = {}, {}
+        self._stock, self._targets = Stock(self.context), Targets(self)
         self._watches_loops = False
         self._drawn = (None, "", [])  # the last scene and its jobs: most frames draw it again
 
@@ -40,7 +39,7 @@ class Renderer(OnCard):
         self._stock.release()
         for made in (*self._screens.values(), *self._programs.values()):
             made.release()
-        self._release_targets()
+        self._targets.release()
 
     @property
     def name(self):
@@ -66,7 +65,7 @@ class Renderer(OnCard):
             scene, linear = scene._replace(samples=1), True
         width, height = scene.size
         side = math.isqrt(scene.samples)
-        self._check_size(width, height, side)
+        self._targets.check(width, height, side)
         rows = max(1, min(height, STRIP // (width * side * side)))
         for top in range(0, height, rows):
             with self.context:  # another renderer's may be the current one
@@ -81,23 +80,27 @@ class Renderer(OnCard):
         """
         width, height = scene.size
         scene = scene._replace(samples=1)
-        self._check_size(width, height, 1)
+        self._targets.check(width, height, 1)
         with self.context:
-            radiance, _ = self._target(1, 1, 1, True)
+            radiance, _ = self._targets.pair(1, 1, 1, True)
             radiance.viewport = (-int(x), -int(y), width, height)
             held = self._accumulated(scene, radiance, (int(x), int(y)), shows)
             *values, surface = struct.unpack("4f", held.read(components=4, dtype="f4"))
         return tuple(values) if surface or shows == "radiance" else None
 
-    def show(self, scene, picture):
-        """Draw a whole scene into a framebuffer of its size: sRGB, top row first, as `strips`."""
-        side = math.isqrt(scene.samples)
-        self._check_size(*scene.size, side)
+    def show(self, scene, picture, top=0, rows=0):
+        """Draw a scene into a framebuffer of its size: sRGB, top row first, as `strips`.
+
+        Only so many rows from the one that `top` counts, where they are given.
+        """
+        (width, height), side = scene.size, math.isqrt(scene.samples)
+        self._targets.check(width, height, side)
         with self.context:
-            radiance, _ = self._target(*scene.size, side, False)
-            radiance.viewport = (0, 0, *radiance.size)
-            picture.viewport = (0, 0, *scene.size)
-            self.present(scene, self._accumulated(scene, radiance, (0, 0), "radiance"), picture)
+            radiance, _ = self._targets.pair(width, rows or height, side, False)
+            radiance.viewport = (0, -top * side, width * side, height * side)
+            held = self._accumulated(scene, radiance, (0, top * side), "radiance")
+            picture.viewport = (0, top, width, min(rows or height, height - top))
+            self.present(scene, held, picture, top=top)
 
     def forget(self, text=None):
         """Free the programs made with a GLSL file's text; look again at the files of meshes."""
@@ -116,7 +119,7 @@ class Renderer(OnCard):
     def _strip(self, scene, linear, side, rows, top, shows):
         width, height = scene.size
         count = min(rows, height - top)
-        radiance, picture = self._target(width, rows, side, linear)
+        radiance, picture = self._targets.pair(width, rows, side, linear)
         radiance.viewport = (0, -top * side, width * side, height * side)
         held = self._accumulated(scene, radiance, (0, top * side), shows)
         self.present(scene, held, picture, linear)
@@ -130,7 +133,7 @@ class Renderer(OnCard):
         if count == 1:
             self.draw(scene, radiance, shift=shift, shows=shows)
             return radiance
-        total = self._sum(radiance.size)
+        total = self._targets.sum(radiance.size)
         total.use()
         total.clear()
         array = self._screen("add", {})
@@ -166,8 +169,11 @@ class Renderer(OnCard):
             self.context.front_face = job.winding
             job.array.render(vertices=job.vertices)
 
-    def present(self, scene, radiance, picture, linear=False):
-        """Turn drawn radiance into pixels: mean of the samples, exposure, tone curve, sRGB."""
+    def present(self, scene, radiance, picture, linear=False, top=0):
+        """Turn drawn radiance into pixels: mean of the samples, exposure, tone curve, sRGB.
+
+        top: the row of the picture at which the radiance begins.
+        """
         constants = {
             "side": math.isqrt(scene.samples),
             "target": "linear" if linear else "display",
@@ -177,6 +183,7 @@ class Renderer(OnCard):
         array = self._screen("present", constants)
         if "rig_exposure" in array.program:
             array.program["rig_exposure"].value = scene.gain
+        array.program["rig_top"].value = top
         radiance.color_attachments[0].use(0)
         picture.use()
         self.context.enable_only(moderngl.NOTHING)
@@ -213,7 +220,7 @@ class Renderer(OnCard):
         for number, light in enumerate(scene.lights, 1):
             if not light.visible:
                 continue
-            key = ("backdrop", number, light.kind.text, *fixed.items())
+            key = ("backdrop", number, light.kind.source, *fixed.items())
             if key not in self._programs:
                 sources = compose.backdrop(light.kind, number, fixed)
                 self._programs[key] = self._compile(sources)
@@ -231,7 +238,7 @@ class Renderer(OnCard):
 
     def _program(self, scene, placed, shows):
         """Return the program for an object of a scene, compiled once."""
-        texts = (placed.object.model.text, *(light.kind.text for light in scene.lights))
+        texts = (placed.object.model.source, *(light.kind.source for light in scene.lights))
         facts = (scene.shading, placed.closed, placed.transformed, shows, layout.shadows(scene))
         key = (*facts, *texts, *layout.constants(scene, placed).items())
         if key not in self._programs:
@@ -249,49 +256,9 @@ class Renderer(OnCard):
         self._watches_loops |= any("rig_cut_short" in one.text for one in sources.values())
         return compiled(self.context, sources)
 
-    def _target(self, width, rows, side, linear):
-        """Return framebuffers (radiance, picture) for strips of a picture, kept while they fit."""
-        key = (width, rows, side, linear)
-        if key not in self._targets:
-            self._release_targets()
-            context, size = self.context, (width * side, rows * side)
-            radiance = [context.texture(size, 4, dtype="f4")]
-            radiance = context.framebuffer(radiance, context.depth_renderbuffer(size))
-            pixels = context.texture((width, rows), 4, dtype="f4" if linear else "f1")
-            picture = context.framebuffer([pixels])
-            if context.error != "GL_NO_ERROR":
-                raise Mistake(f"the driver has no memory for {width} x {rows} pixels; draw smaller")
-            self._targets[key] = (radiance, picture)
-        return self._targets[key]
-
-    def _sum(self, size):
-        """Return a framebuffer in which passes of that size are added up."""
-        if size not in self._targets:
-            self._targets[size] = (
-                self.context.framebuffer([self.context.texture(size, 4, dtype="f4")]),
-            )
-        return self._targets[size][0]
-
-    def _release_targets(self):
-        for framebuffer in (f for pair in self._targets.values() for f in pair):
-            self.free_framebuffer(framebuffer)
-        self._targets.clear()
-
-    def _check_size(self, width, height, side):
-        if max(width, height) * side <= COMMON:
-            return
-        with self.context:
-            info = self.context.info
-        most = min(info["GL_MAX_TEXTURE_SIZE"], *info["GL_MAX_VIEWPORT_DIMS"])
-        if max(width, height) * side > most:
-            raise Mistake(
-                f"size {width}x{height} with {side * side} samples is more than this driver draws; "
-                f"allowed: up to {most // side} pixels a side, or {most} with samples = 1"
-            )
-
 
 def _bound(program, values, textures):
-    """Return ((member, bytes), ...), ((unit, texture), ...): of all that is given what it takes."""
+    """Return ((member, bytes), ...), ((unit, texture), ...): of all given what it takes."""
     members = ((program.get(name, None), value) for name, value in values.items())
     looked_up = [(name, texture) for name, texture in textures.items() if name in program]
     for unit, (name, _) in enumerate(looked_up):

@@ -71,6 +71,7 @@ def model(scene, state, words):
 def some(scene, state, words, keys):
     """Draw a row for each of some values, as `settings.changed` names them."""
     first = next((key for key in keys if key.startswith("camera.")), "")
+    clock = functools.partial(_clock, scene, state, words)
     options = {"mesh": _meshes, "model": _models, "material": lambda: _materials(state.lang)}
     for key in keys:
         name, at = key.rpartition(".")[2], settings.found(scene, key)
@@ -81,7 +82,7 @@ def some(scene, state, words, keys):
             one, value, lamp, address = at
             one = editing.in_unit(lamp) if one.tinted else one
             start = editing.start(one.name, state.view) if one.default is None else None
-            new = widgets.edit(one, value, words, "", start, scene.time)
+            new = widgets.edit(one, value, words, "", start, clock)
             if new != value:
                 scene = _set(scene, state, address if new is None else key, new)
         elif name in options:
@@ -191,15 +192,25 @@ def _parameters(scene, state, words, key, shader, parameters, values):
 
 def _values(scene, state, words, prefix, parameters, values, note=""):
     """Draw a row for each of some Parameters and return the scene with what was changed."""
+    clock = functools.partial(_clock, scene, state, words)
     for one in parameters:
         value, key = values[one.name], prefix + one.name
         start = None
         if one.default is None and value is None:
             start = editing.start(one.name, state.view)
-        new = widgets.edit(one, value, words, note, start, scene.time)
+        new = widgets.edit(one, value, words, note, start, clock)
         if new != value:
             scene = _set(scene, state, key, new)
     return scene
+
+
+def _clock(scene, state, words):
+    """Draw the time of the scene, and the button that lets it run, or stops it."""
+    if imgui.button("▮▮##play" if state.runs else "▶##play", (2.0 * imgui.get_font_size(), 0.0)):
+        state.wish = "play"
+    imgui.set_item_tooltip(words["play"])
+    imgui.same_line()
+    imgui.text(f"t = {scene.time:.2f} s")
 
 
 def _list(name, words, current, options, hint="", note=""):

@@ -1,11 +1,12 @@
 """What F12 writes: the pictures in the window as a PNG that carries their scene."""
 
 from . import compare, files, hands, image, legend, picture, scenefile, sheet
+from .comparing import TEXT
 from .gallery import numbers
 
 
-def write(stage, document, lang, path, words):
-    """Write what a Stage shows to `path`; words: phrases.TEXT of the language.
+def write(stage, document, lang, path):
+    """Write what a Stage shows of a Document to `path`, with captions in a language.
 
     Several pictures are a sheet, and so is the scene that the PNG carries; a difference stands
     above its scale. Where no file can say the scenes of all, the first one is carried. Raises
@@ -15,18 +16,18 @@ def write(stage, document, lang, path, words):
         picture.write(stage.shown, path, stage.renderer)
         return
     shown = [one.shown for one in stage.easels if one.shown]
-    said = document.said(lang)
+    said = document.beside.said(lang)
     row = [place for place in stage.places if place[1] == stage.places[0][1]]
     base, columns = hands.framed(document.scene, row[0][2:]), len(row)
     made = len(shown) == len(stage.easels) and compare.sheet(
-        base, shown, document.comparison, columns
+        base, shown, document.beside.comparison, columns
     )
     carried = made._replace(lang=lang) if made else shown[0]
     if made and stage.mode != "difference":
         picture.write(carried, path, stage.renderer)
         return
     if stage.mode == "difference":
-        size, pixels = _difference(stage, said, words["difference"])
+        size, pixels = _difference(stage, said, TEXT[lang]["difference"])
     else:
         cells = [
             (text, one.canvas.size, one.canvas.read(components=3))

@@ -6,6 +6,7 @@ import time
 from . import compare, hands, opening
 from .errors import Mistake, one_line
 from .renderer import Renderer
+from .scene import Scene
 
 PROMPT = 0.04  # seconds that all pictures may take while they move
 PAPER = (0.16, 0.17, 0.2)  # between pictures
@@ -55,6 +56,8 @@ class Easel:
         except Mistake as mistake:
             self.fault = one_line(mistake)
             self._show_last(size, coarse, renderer)
+            if self.canvas is None:
+                raise
         else:
             self._forget_edited(scene, renderer)
             self.good, self.fault = scene, ""
@@ -72,26 +75,22 @@ class Easel:
         return shown
 
     def _show_last(self, size, coarse, renderer):
-        """Draw the last good scene, or nothing where there is none."""
-        if self.good is None:
-            self._fit(size)
-            return
+        """Draw the last good scene, or the default one where there is none."""
         with contextlib.suppress(Mistake):  # larger than any picture can be
-            self.shown = self._show(self.good, size, coarse, renderer)
+            self.shown = self._show(self.good or Scene.default(), size, coarse, renderer)
             self.view = renderer.viewpoint(self.shown)
 
     def _fit(self, size):
         if self.canvas is None or self.canvas.size != size:
             self.release()
             self.canvas = self.context.framebuffer([self.context.texture(size, 4)])
-            self.canvas.clear()
 
     def _forget_edited(self, scene, renderer):
         """Free what was compiled from files as they were before their last good save."""
-        texts = {shader.path: shader.text for shader in opening.shaders(scene)}
+        sources = {shader.path: shader.source for shader in opening.shaders(scene)}
         for old in opening.shaders(self.good) if self.good else ():
-            if texts.get(old.path, old.text) != old.text:
-                renderer.forget(old.text)
+            if sources.get(old.path, old.source) != old.source:
+                renderer.forget(old.source)
 
 
 class Stage:
@@ -134,9 +133,9 @@ class Stage:
         return any(one.coarse for one in self.easels)
 
     @property
-    def restless(self):
-        """Whether something is still to come, though nothing happens."""
-        return self.coarse or bool(self.deviation and self.deviation.busy)
+    def busy(self):
+        """Whether a number is still to come."""
+        return bool(self.deviation and self.deviation.busy)
 
     @property
     def fault(self):
@@ -161,24 +160,25 @@ class Stage:
         self.stale()
 
     def stale(self):
-        """Have the next pictures drawn, whatever they show."""
+        """Have the next pictures drawn, whatever they show: a file of theirs may be another one."""
         for one in self.easels:
             one.stale()
+        self.renderer.forget()
 
-    def draw(self, scene, pictures, mode, size, since):
+    def draw(self, beside, scene, size, since):
         """Bring the pictures up to date; since: seconds for which nothing has changed.
 
-        scene     as edited
-        pictures  (Scene or None, line of why there is none) of each
-        mode      of compare.MODES; size: of the area that the pictures fill
+        beside   a Beside, of whose pictures each is shown
+        scene    as edited; size: of the area that the pictures fill
 
         Pictures that take long have one sample per pixel while they move, all of them at rest.
-        Raises Mistake where no scene could be drawn yet.
+        The default scene is in the place of one that could not be drawn yet.
         """
+        mode, pictures = beside.comparison.mode, beside.pictures
         self._place(len(pictures), mode, size)
         coarse = self.cost > PROMPT and since < REST
         drawn = [
-            one.draw(*picture, place[2:], coarse, self.renderer)
+            one.draw(picture.scene, picture.fault, place[2:], coarse, self.renderer)
             for one, picture, place in zip(self.easels, pictures, self.places, strict=True)
         ]
         if any(drawn) and not coarse:
@@ -194,8 +194,6 @@ class Stage:
             self._end_difference()
         if not self.fault:
             self.good = scene
-        elif not any(one.good for one in self.easels):
-            raise Mistake(self.fault)
 
     def at(self, x, y):
         """Return the index of the picture at a pixel of the area; beside all of them the first."""
@@ -206,20 +204,30 @@ class Stage:
                 return i
         return 0
 
-    def looks(self, scene, index):
-        """Return a scene, or the last one that could be drawn, as framed for a picture's place.
+    def looks(self, scene, size):
+        """Return a scene, or the last one that could be drawn, as framed, and its viewpoint.
 
-        And its viewpoint; (None, None) where neither can be.
+        (None, None) where neither can be.
         """
-        size = self.places[min(index, len(self.places) - 1)][2:]
         for one in filter(None, (scene, self.good)):
             with contextlib.suppress(Mistake):
                 shown = hands.framed(one, size)
                 return shown, self.renderer.viewpoint(shown)
         return None, None
 
-    def present(self, overlay, screen, left):
-        """Bring the pictures into a framebuffer of the window, from a pixel of its width on."""
+    def slide(self, by):
+        """Move the line between two pictures by a share of the width."""
+        self.share = max(0.0, min(1.0, self.share + by))
+
+    def pick(self, index, x, y):
+        """Make a picture the active one, and return the pixel of it that is one of the area."""
+        self.active = index
+        left, top, *_ = self.places[index]
+        return x - left, y - top
+
+    def present(self, overlay, left):
+        """Bring the pictures into the window, from a pixel of its width on."""
+        screen = self.context.screen
         textures = [one.canvas.color_attachments[0] for one in self.easels]
         width, height = self._area
         if self.mode == "split":

@@ -18,35 +18,50 @@ def view(options):
     limit_time(math.inf)
     from . import lesson as lessons
     from . import scenefile
+    from .document import Document
+
+    named = {**scenefile.shipped(), **lessons.shipped()}
+    path = named.get(options.scene) or os.path.abspath(os.path.expanduser(options.scene or ""))
+    path = path if path.endswith(".toml") else ""
+    name = os.path.splitext(os.path.basename(options.scene or ""))[0]
+    scene, fault = None, None
+    try:
+        scene = _viewed(options)
+        document = Document(scene, name, path, options.restore)
+    except Mistake as mistake:  # in a file, it can be put right while the window is open
+        fault = mistake
+        document = Document.expecting(lambda: _viewed(options), name, path, fault)
+    try:
+        from .desktop import has_display
+        from .window import Viewer
+    except ImportError as error:
+        advice = "`lumiar capture` draws without a window"
+        raise Mistake(f"no window can be opened here ({one_line(error, 120)}); {advice}") from None
+    if fault and not has_display():
+        raise fault
+    lang = getattr(scene, "lang", "")
+    lang = options.lang or (lang if lang in scenefile.LANGUAGES else "")
+    with Viewer(document, lang or scenefile.system_language()) as viewer:
+        viewer.run()
+    return 0
+
+
+def _viewed(options):
+    """Return the Scene or the Lesson that the options of `view` describe."""
+    from . import lesson as lessons
 
     if options.restore:
         from . import opening
 
         if options.scene:
             raise Mistake(f"--restore: opens the last scene, not {options.scene}; leave one out")
-        options.scene = ""
-        scene = opening.kept()
-    elif lessons.is_lesson(options.scene or "", os.getcwd()):
-        keys = ("model", "material", "mesh", "shading", "light", "set")
-        for key in (key for key in keys if getattr(options, key)):
-            raise Mistake(f"--{key}: {options.scene} is a lesson; leave it out")
-        scene = lessons.load(options.scene, os.getcwd())
-    else:
-        scene = given.scene(options)
-    try:
-        from .window import Viewer
-    except ImportError as error:
-        advice = "`lumiar capture` draws without a window"
-        raise Mistake(f"no window can be opened here ({one_line(error, 120)}); {advice}") from None
-    named = {**scenefile.shipped(), **lessons.shipped()}
-    path = named.get(options.scene) or os.path.abspath(os.path.expanduser(options.scene or ""))
-    path = path if path.endswith(".toml") else ""
-    name = os.path.splitext(os.path.basename(options.scene or ""))[0]
-    lang = getattr(scene, "lang", "")
-    lang = options.lang or (lang if lang in scenefile.LANGUAGES else "")
-    with Viewer(scene, lang or scenefile.system_language(), name, path) as viewer:
-        viewer.run()
-    return 0
+        return opening.kept()
+    if not lessons.is_lesson(options.scene or "", os.getcwd()):
+        return given.scene(options)
+    keys = ("model", "material", "mesh", "shading", "light", "set")
+    for key in (key for key in keys if getattr(options, key)):
+        raise Mistake(f"--{key}: {options.scene} is a lesson; leave it out")
+    return lessons.load(options.scene, os.getcwd())
 
 
 def capture(options):

@@ -17,6 +17,11 @@ class Watch:
         self._moving = {path: at for path, at in self._moving.items() if path in self._seen}
 
     @property
+    def paths(self):
+        """The files that are looked at."""
+        return {*self._seen}
+
+    @property
     def restless(self):
         """Whether a file was saved a moment ago, and may not be whole yet."""
         return bool(self._moving)

@@ -15,10 +15,11 @@ _POLE = 89.99  # degrees that a ball can be turned up: straight up has no azimut
 _STEPS = 250.0  # pixels over which a dragged number crosses its range
 
 
-def edit(one, value, words, note="", start=None, time=0.0):
+def edit(one, value, words, note="", start=None, clock=None):
     """Draw the row of a Parameter and return its value, another one if it was changed.
 
-    start: what a value that was left out (None) begins with; time: of the scene (s).
+    start: what a value that was left out (None) begins with; clock: what draws the value of one
+    that is the time of the scene.
     """
     imgui.push_id(one.name)
     marked = _default(one, words) if value != one.default and one.widget != "time" else None
@@ -29,7 +30,7 @@ def edit(one, value, words, note="", start=None, time=0.0):
     elif one.default is None:
         value = _optional(one, value, words, start)
     elif one.widget == "time":
-        imgui.text_disabled(f"t = {time:.4g} s: {words['follows']}")
+        clock()
     else:
         value = _WIDGETS.get(one.widget, _numbers)(one, value, words)
     imgui.pop_id()

@@ -1,16 +1,16 @@
 """The window: input → next Scene, its picture, the panel on it; drawn only when something moved."""
 
-import itertools
-import os
+import math
 import time
 
 from imgui_bundle import imgui
 
-from . import banner, gallery, hands, opening, panel, picture, presenter, snapshot, words
+from . import banner, gallery, hands, opening, panel, presenter, snapshot, words
 from .desktop import LETTERS, Desktop, glfw
 from .document import Document
 from .drawer import TOOLS, Drawer, Now
 from .errors import Mistake, one_line
+from .files import shortened, unused
 from .overlay import Overlay
 from .phrases import TEXT
 from .stage import REST, Stage
@@ -32,7 +32,7 @@ class Viewer:
     """
 
     def __init__(self, scene, lang, name="", path="", hidden=False, size=SIZE):
-        self.document = Document(scene, name, path)
+        self.document = scene if isinstance(scene, Document) else Document(scene, name, path)
         self.desktop = Desktop(size, "Lumiar", hidden)
         context = self.desktop.context
         self.stage, self.overlay, self.drawer = Stage(context), Overlay(context), Drawer()
@@ -44,7 +44,7 @@ class Viewer:
         self.fault, self.notice, self.titled = "", ("", 0.0), ""
         self.moved = self.awake = 0.0
         self.picked, self._pressed, self._place = None, None, (0.0, 0.0)
-        self._index, self._seen = 0, None  # of the picture that the mouse is on; the last step
+        self._index, self._seen = 0, None  # of the picture under the mouse; the last step
         self.with_panel, self.with_keys, self.due = True, False, FRAMES
         self.kept, self.kept_at = None, time.monotonic()
 
@@ -72,17 +72,21 @@ class Viewer:
     def run(self):
         """Turn until the window is closed."""
         while not self.desktop.closing:
-            draws = self.due and 0 not in self.desktop.size  # but minimised
-            wait = 0.0 if draws else 0.05 if self.document.watch.restless else IDLE
-            self.frame(min(wait, 0.1) if self._lingers(time.monotonic()) else wait)
+            now, idle = time.monotonic(), 0.05 if self.document.watch.restless else IDLE
+            wait = min(idle, 0.1) if self._lingers(now) else idle
+            wait = 0.0 if self.due and 0 not in self.desktop.size else wait
+            self.frame(max(0.0, min(wait, self.state.wake - now)))
 
     def frame(self, wait=0.0):
         """Take what came, for up to `wait` seconds; draw if anything moved; return whether."""
         events, now = self.desktop.take(wait), time.monotonic()
-        saved = self.document.watch.changed(now)
-        if events or saved or self.due or self._lingers(now):
+        self.due = max(self.due, now >= self.state.wake)
+        if self.document.tick(now):
+            self.due, self.moved = max(self.due, 1), now
+        saved, typed = self.document.watch.changed(now), self.document.look(now)
+        if events or saved or typed or self.due or self._lingers(now):
             self.desktop.use()
-        if events:
+        if events or typed:
             self.due, self.awake = FRAMES, now + LINGER
         for event, *how in events:
             getattr(self, f"_on_{event}")(*how)
@@ -98,17 +102,17 @@ class Viewer:
         return True
 
     def _lingers(self, now):
-        return now < self.awake or now < self.notice[1] or self.stage.restless
+        return now < self.awake or now < self.notice[1] or self.stage.coarse
 
     def _frame(self, now):
         desktop = self.desktop
         high = glfw.get_window_size(desktop.window)[1] if self.presents else 0
         imgui.get_style().font_size_base = max(high / presenter.LINES, LETTERS * desktop.scale)
         desktop.begin()
-        self.state.restless = False
+        self.state.restless, self.state.wake = False, math.inf
         if self.with_panel:
             self.state.view, self.state.tool = self.stage.view, self.drawer.open
-            self.state.able = self.document.history.able
+            self.state.able, self.state.runs = self.document.history.able, self.document.clock.runs
             parts = self.presenter.parts(self.document.stop) if self.presents else panel.ALL
             self._push(panel.draw(self.scene, self.state, parts), self.state.gesture)
             self._wish()
@@ -116,14 +120,13 @@ class Viewer:
         self.due = max(self.due, 2 * self.state.restless)
         self._notice_step()
         left, size = self._area()
-        pictures, mode = self.document.pictures, self.document.comparison.mode
-        wanted = [(one.scene, one.fault) for one in pictures]
-        self.stage.draw(self.scene, wanted, mode, size, now - self.moved)
+        self.stage.draw(self.document.beside, self.scene, size, now - self.moved)
+        if self.stage.busy:
+            self.state.wake = min(self.state.wake, now + IDLE)
         self._say_over(left, size, now)
         imgui.render()
-        screen = desktop.context.screen
-        self.stage.present(self.overlay, screen, left)
-        self.overlay.widgets(imgui.get_draw_data(), screen, desktop.size)
+        self.stage.present(self.overlay, left)
+        self.overlay.widgets(imgui.get_draw_data(), desktop.context.screen, desktop.size)
         desktop.show()
         title = f"{self.document.name} · Lumiar".removeprefix(" · ")
         if title != self.titled:
@@ -146,6 +149,7 @@ class Viewer:
         return Now(
             *(self.scene, stage.shown, stage.view, self.picked, fault, now - self.moved > REST),
             *(state, words.TEXT[state.lang], stage, self.overlay, self.document),
+            now,
         )
 
     def _wish(self):
@@ -158,13 +162,8 @@ class Viewer:
     def _say_over(self, left, size, now):
         """Say over the picture what has to be said."""
         words, document = TEXT[self.state.lang], self.document
-        caption = picture.in_language(document.caption, self.state.lang)
-        stop = document.stop
-        at = (stop.number, stop.steps) if stop else (document.page + 1, len(document.pages))
-        if at[1] > 1:
-            page = words["page"].format(*at)
-            caption = f"{page}   {caption}".strip()
-        fault = (document.fault or self.fault).replace(os.getcwd() + os.sep, "")
+        caption = gallery.caption(document, self.state.lang)
+        fault = shortened(document.fault or self.stage.fault or self.fault)
         fault = f"{fault}\n{words['last']}" if fault else ""
         if not self.with_panel:
             fault = fault or self.state.message
@@ -172,7 +171,9 @@ class Viewer:
         points = imgui.get_io().display_size.x / self.desktop.size[0]
         area = (left * points, size[0] * points, size[1] * points)
         banner.draw(area, f"{1000.0 * self.stage.cost:.1f} ms", caption, fault, done)
-        gallery.draw(self.stage, document.said(self.state.lang), left, points, words)
+        gallery.draw(
+            self.stage, document.beside.said(self.state.lang), left, points, self.state.lang
+        )
         if self.with_keys:
             banner.keys(area, words["keys"])
 
@@ -196,9 +197,7 @@ class Viewer:
     def _on_release(self, _):
         self.hands.release()
         if self._pressed and self._pressed == self._place:
-            self.stage.active = index = self._index
-            corner = self.stage.places[index][:2]
-            self.picked = tuple(a - b for a, b in zip(self._local(), corner, strict=True))
+            self.picked = self.stage.pick(self._index, *self._local())
         self._pressed = None
         self.document.history.push(self.document.history.scene)  # ends the step
 
@@ -217,10 +216,9 @@ class Viewer:
             return
 
         def turned(scene):
-            shown, view = self.stage.looks(scene, self._index)
-            return turn(scene, shown, view) if shown else scene
+            return turn(scene, *self.stage.looks(scene, self.stage.places[self._index][2:]))
 
-        self.document.move(turned, key)
+        self.document.beside.move(turned, key)
 
     def _local(self):
         """Return the pixel of the pictures' area where the mouse is."""
@@ -236,19 +234,21 @@ class Viewer:
 
     def _on_key(self, key, held):
         io, popup = self.desktop.io, imgui.PopupFlags_.any_popup
-        if io.want_text_input or (key == glfw.KEY_ESCAPE and imgui.is_popup_open("", popup)):
+        typed = io.want_text_input and not glfw.KEY_F1 <= key <= glfw.KEY_F12
+        if typed or (key == glfw.KEY_ESCAPE and imgui.is_popup_open("", popup)):
             return
         document, forward = self.document, held & glfw.MOD_SHIFT
         if held & (glfw.MOD_CONTROL | glfw.MOD_SUPER):
             if key in (glfw.KEY_Z, glfw.KEY_Y):
                 (document.redo if forward or key == glfw.KEY_Y else document.undo)()
         elif key == glfw.KEY_R:
-            document.look_home()
+            document.beside.look_home()
         elif key in _TURNS and forward and self.stage.mode == "split":
-            share = self.stage.share + 0.05 * _TURNS[key]
-            self.stage.share = max(0.0, min(1.0, share))
+            self.stage.slide(0.05 * _TURNS[key])
         elif key in _TURNS:
             document.turn(_TURNS[key])
+        elif key == glfw.KEY_SPACE:
+            document.play()
         elif key == glfw.KEY_P:
             self.presents = not self.presents
         elif key in _TOOL_KEYS:
@@ -275,11 +275,9 @@ class Viewer:
             self._tell("reloaded", ", ".join(names))
 
     def _screenshot(self):
-        paths = (f"lumiar-{i:03}.png" for i in itertools.count(1))
-        path = next(path for path in paths if not os.path.exists(path))
+        path = unused("lumiar", ".png")
         try:
-            lang = self.state.lang
-            snapshot.write(self.stage, self.document, lang, path, TEXT[lang])
+            snapshot.write(self.stage, self.document, self.state.lang, path)
         except (Mistake, OSError) as error:
             self.fault = one_line(error)
         else:
@@ -291,6 +289,7 @@ class Viewer:
         self.notice = (text, time.monotonic() + NOTICE)
 
     def _keep(self):
+        self.document.texts.put_by()
         good = self.stage.good
         if self.kept is not good and good is not None:
             opening.keep(good)

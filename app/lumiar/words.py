@@ -212,7 +212,6 @@ TEXT = {
         "reset all": "reset all",
         "auto": "automatic",
         "off": "off",
-        "follows": "follows the time of the scene",
         "allowed": "values",
         "default": "default",
         "typed": "Ctrl-click types a value",
@@ -225,6 +224,7 @@ TEXT = {
         "close": "close",
         "undo": "undo: Ctrl Z",
         "redo": "redo: Ctrl Shift Z",
+        "play": "let the time run, or stop: space bar",
         "tools": {
             "compare": "Compare",
             "plots": "Plots",
@@ -251,7 +251,6 @@ TEXT = {
         "reset all": "restaurar tudo",
         "auto": "automático",
         "off": "não usado",
-        "follows": "segue o tempo da cena",
         "allowed": "valores",
         "default": "padrão",
         "typed": "Ctrl-clique permite digitar um valor",
@@ -264,6 +263,7 @@ TEXT = {
         "close": "fechar",
         "undo": "desfazer: Ctrl Z",
         "redo": "refazer: Ctrl Shift Z",
+        "play": "deixar o tempo correr, ou parar: barra de espaço",
         "tools": {
             "compare": "Comparar",
             "plots": "Gráficos",

@@ -7,6 +7,7 @@
 uniform sampler2D rig_L;  // to the light, local frame
 uniform sampler2D rig_V;  // to the eye
 uniform int rig_repeats;  // where timed
+uniform float rig_tiny;  // where timed: read each time, as parameters are, which takes longest the first time
 
 out vec4 rig_out;
 
@@ -15,9 +16,10 @@ void main() {
     vec3 L = texelFetch(rig_L, pair, 0).xyz, V = texelFetch(rig_V, pair, 0).xyz;
     vec3 sum = vec3(0.0);  // where timed
     for (int i = 0; i < rig_repeats; ++i) {  // where timed
-        L = texelFetch(rig_L, (pair + i) & 255, 0).xyz;  // where timed
-        V = texelFetch(rig_V, (pair - i) & 255, 0).xyz;  // where timed
-        sum += scatter(L, V) + 1e-30 * (L + V);  // where timed
+        // other directions each time, for less than a texture costs: turned, and kept above
+        L.xz = vec2(0.8 * L.x - 0.6 * L.z, abs(0.6 * L.x + 0.8 * L.z));  // where timed
+        V.yz = vec2(0.8 * V.y - 0.6 * V.z, abs(0.6 * V.y + 0.8 * V.z));  // where timed
+        sum += scatter(L, V) + rig_tiny * (L + V);  // where timed
     }  // where timed
     rig_out = vec4(sum, 1.0);  // where timed
     rig_out = vec4(scatter(L, V), 1.0);  // where scatter
