@@ -75,6 +75,8 @@ def test_an_interrupted_bench_goes_on_with_what_is_missing(quick, tmp_path, monk
     (row,) = report["studies"][1]["pictures"]
     assert (tmp_path / row["file"]).exists() and (tmp_path / row["error_file"]).exists()
     assert "Ruim." in ledger.table(report["studies"][1], "pt")
+    text = (tmp_path / "report.html").read_text()
+    assert "Ruim." in text and text.count("data:image/webp") == 2
 
 
 def test_a_report_of_another_machine_is_not_gone_on_with(quick, tmp_path):

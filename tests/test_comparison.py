@@ -195,7 +195,7 @@ def test_a_click_picks_a_pixel_of_its_own_picture(viewer):
     for i, (x, y, _, _) in enumerate(viewer.stage.places):
         at = (left + x + 31, y + 47)
         drag(viewer, at, at)
-        assert viewer.picked == (31, 47) and viewer.stage.active == i
+        assert viewer.pointer.picked == (31, 47) and viewer.stage.active == i
         assert viewer.stage.shown == viewer.stage.easels[i].shown
         assert viewer.stage.shown.objects[0].model.name == ("phong", "ward")[i]
     show(viewer, Comparison())

@@ -1,7 +1,9 @@
 """What the points of one case and metric advise, in a sentence or two, derived from them alone."""
 
 from . import study
+from .notation import number
 
+NAMED = 5  # in a sentence; what is more is counted
 WORDS = {
     "en": {
         "worth": "{pick} costs {more} {unit} more than {rival} and {gain}: use it.",
@@ -12,6 +14,7 @@ WORDS = {
         " cheaper: use it.",
         "shows": "Its error still shows.",
         "beaten": "No bargain: {names}.",
+        "more": "{} more",
         "default": "Lumiar's default, {name}, is beaten by {names}.",
         "no error": "{pick} has no error to speak of, and nothing is clearly cheaper: use it.",
     },
@@ -24,15 +27,11 @@ WORDS = {
         " use.",
         "shows": "O erro ainda se vê.",
         "beaten": "Não compensa: {names}.",
+        "more": "mais {}",
         "default": "O padrão do Lumiar, {name}, é superado por {names}.",
         "no error": "{pick} não tem erro que conte, e nada é claramente mais barato: use.",
     },
 }
-
-
-def number(value):
-    """Return a number in words of two digits."""
-    return f"{float(f'{value:.2g}'):g}"
 
 
 def chosen(group, metric):
@@ -64,14 +63,16 @@ def sentences(group, metric, names, lang):
         return []
 
     def said(points):
-        return ", ".join(names[p.variant] for p in sorted(points, key=lambda p: p.error))
+        told = [names[p.variant] for p in sorted(points, key=lambda p: p.error)]
+        more = words["more"].format(len(told) - NAMED + 1)
+        return ", ".join(told if len(told) <= NAMED else [*told[: NAMED - 1], more])
 
     rivals = [p for p in group if p.pareto and study.cheaper(p, pick) and p.error > pick.error]
-    facts = {"pick": names[pick.variant], "after": number(pick.error), "unit": pick.unit}
+    facts = {"pick": names[pick.variant], "after": number(pick.error, 2, lang), "unit": pick.unit}
     if rivals:
         rival = min(rivals, key=lambda p: p.error)
-        facts |= {"rival": names[rival.variant], "before": number(rival.error)}
-        facts["more"] = number(pick.cost - rival.cost)
+        facts |= {"rival": names[rival.variant], "before": number(rival.error, 2, lang)}
+        facts["more"] = number(pick.cost - rival.cost, 2, lang)
         small = pick.error < max(metric.floor, 0.02 * rival.error)
         facts["gain"] = words["gain" if small else "less"].format(**facts)
         out = [words["worth"].format(**facts)]

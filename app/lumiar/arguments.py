@@ -215,7 +215,7 @@ def _audit(parser):
 def _bench(parser):
     text = "fresnel, lobes … (default: all)"
     parser.add_argument("studies", nargs="*", metavar="STUDY", help=text)
-    text = "for report.json, points.csv and pictures; an interrupted run goes on (default: bench)"
+    text = "for report.html, .json and pictures; goes on with what is missing (default: bench)"
     parser.add_argument("-o", "--output", default="bench", metavar="FOLDER", help=text)
     parser.add_argument("--quick", action="store_true", help="coarser, in a tenth of the time")
     text = "tell what changed beyond noise since an older report; exit 1 if worse"

@@ -49,6 +49,16 @@ def keys(area, lines):
     imgui.end()
 
 
+def ring(corner, pixel):
+    """Mark a pixel of the picture, which begins at a pixel of the window."""
+    scale = imgui.get_io().display_framebuffer_scale
+    at = [begin + x + 0.5 for begin, x in zip(corner, pixel, strict=True)]
+    place = (at[0] / scale.x, at[1] / scale.y)
+    ink, radius = imgui.get_background_draw_list(), 0.5 * imgui.get_font_size()
+    for colour, width in ((0xC0000000, 4.0), (0xFFFFFFFF, 2.0)):
+        ink.add_circle(place, radius, colour, 0, width)
+
+
 def box(name, text, colour, alpha, place, pivot, most):
     """Write a text in a box of its own, of which `place` is the share `pivot` (across, down).
 

@@ -8,7 +8,7 @@ import time
 
 import numpy as np
 
-from . import __version__, files, image, ledger, studies, study
+from . import __version__, files, image, ledger, page, plates, studies, study
 from .bench import Bench
 from .errors import Mistake, nearest
 
@@ -24,7 +24,7 @@ def chosen(names):
 
 
 def run(names, folder, quick, told):
-    """Do the studies of these names and write FOLDER/report.json and points.csv after each.
+    """Do the studies of these names and write FOLDER/report.json, points.csv, report.html.
 
     A report that is there already is gone on with, if it was made by the same program on the same
     machine and lacks some of them. told(kind, value) is called with "made" and the facts of the
@@ -35,6 +35,7 @@ def run(names, folder, quick, told):
     with Bench(quick) as bench:
         made = facts(bench)
         report = _resumed(folder, names, made, told)
+        pictures = plates.drawn(report["studies"], folder)
         told("made", report["made"])
         done = [one["name"] for one in report["studies"]]
         wanted = [name for name in names if name not in done]
@@ -50,7 +51,8 @@ def run(names, folder, quick, told):
             report["studies"] = sorted(
                 [*report["studies"], one], key=lambda one: studies.NAMES.index(one["name"])
             )
-            _write(report, folder)
+            pictures |= plates.drawn([one], folder)
+            _write(report, pictures, folder)
             told("done", one)
     return report
 
@@ -136,17 +138,23 @@ def _png(folder, name, values):
     files.write_whole(os.path.join(folder, name), image.png((width, height), [pixels]))
 
 
-def _write(report, folder):
+def _write(report, pictures, folder):
     files.write_whole(os.path.join(folder, "report.json"), [ledger.as_json(report)])
     files.write_whole(os.path.join(folder, "points.csv"), [ledger.as_csv(report)])
+    text = page.html(report, pictures)
+    files.write_whole(os.path.join(folder, "report.html"), [text.encode()])
 
 
 def _commit():
     """Return the commit of the checkout that runs, with a digest of what was changed since."""
     try:
         where = ("git", "-C", files.ROOT)
-        at = subprocess.check_output((*where, "rev-parse", "--short", "HEAD"), stderr=-3, text=True)
-        changed = subprocess.check_output((*where, "diff", "HEAD", "--", "app", "glsl"), stderr=-3)
+        at = subprocess.check_output(
+            (*where, "rev-parse", "--short", "HEAD"), stderr=subprocess.DEVNULL, text=True
+        )
+        changed = subprocess.check_output(
+            (*where, "diff", "HEAD", "--", "app", "glsl"), stderr=subprocess.DEVNULL
+        )
     except (OSError, subprocess.CalledProcessError):
         return ""
     import hashlib

@@ -102,6 +102,17 @@ def hdr(size, strips):
             yield _hdr_row(row)
 
 
+def webp(pixels, quality):
+    """Return the bytes of a WebP of pixels (height, width, 3) uint8 of sRGB; quality up to 100."""
+    import io
+
+    from PIL import Image
+
+    data = io.BytesIO()
+    Image.fromarray(pixels).save(data, "WEBP", quality=quality, method=6)
+    return data.getvalue()
+
+
 def read(path):
     """Return (array (height, width, 3) float32, whether it is linear radiance) of a picture.
 

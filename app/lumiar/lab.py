@@ -202,7 +202,7 @@ def bench(options):
 
     report = benching.run(names, options.output, options.quick, told)
     print(ledger.TEXT[lang]["front"])
-    print(os.path.join(options.output, "report.json"))
+    print(os.path.join(options.output, "report.html"))
     if not old:
         return 0
     lines, worse = ledger.changes(old, report)

@@ -66,6 +66,19 @@ def shown(value):
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
+def number(value, digits=3, lang="en"):
+    """Return a number rounded to so many digits as people write it: 0.036, 300, 1.6·10⁻⁵."""
+    if not math.isfinite(value):
+        return "∞" if value > 0.0 else str(value)
+    share, power = f"{value:.{digits - 1}e}".split("e")
+    if -4 < int(power) < 4:
+        text = f"{float(share + 'e' + power):g}"
+    else:
+        share = f"{float(share):g}"
+        text = ("" if share == "1" else f"{share}·") + "10" + str(int(power)).translate(_POWERS)
+    return text.replace(".", ",") if lang == "pt" else text
+
+
 def encoded(channel):
     """Return a linear channel as a screen takes it (sRGB, IEC 61966-2-1), within [0, 1]."""
     channel = max(0.0, min(1.0, channel))

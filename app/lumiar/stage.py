@@ -219,11 +219,15 @@ class Stage:
         """Move the line between two pictures by a share of the width."""
         self.share = max(0.0, min(1.0, self.share + by))
 
-    def pick(self, index, x, y):
-        """Make a picture the active one, and return the pixel of it that is one of the area."""
-        self.active = index
-        left, top, *_ = self.places[index]
+    def within(self, x, y):
+        """Return the pixel of the picture there that is a pixel of the area."""
+        left, top, *_ = self.places[self.at(x, y)]
         return x - left, y - top
+
+    def corner(self, left):
+        """Return where in the window the active picture begins, if the area does at `left`."""
+        x, y, *_ = self.places[self.active]
+        return left + x, y
 
     def present(self, overlay, left):
         """Bring the pictures into the window, from a pixel of its width on."""

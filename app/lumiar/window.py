@@ -5,7 +5,7 @@ import time
 
 from imgui_bundle import imgui
 
-from . import banner, gallery, hands, opening, panel, presenter, snapshot, words
+from . import banner, gallery, opening, panel, presenter, snapshot, words
 from .desktop import LETTERS, Desktop, glfw
 from .document import Document
 from .drawer import TOOLS, Drawer, Now
@@ -13,6 +13,7 @@ from .errors import Mistake, one_line
 from .files import shortened, unused
 from .overlay import Overlay
 from .phrases import TEXT
+from .pointer import Pointer
 from .stage import REST, Stage
 
 SIZE = (1280, 800)
@@ -38,13 +39,12 @@ class Viewer:
         self.stage, self.overlay, self.drawer = Stage(context), Overlay(context), Drawer()
         panel.prepare(LETTERS * self.desktop.scale)
         imgui.get_style().scale_all_sizes(self.desktop.scale)
-        self.state, self.hands = panel.State(lang=lang, tools=tuple(TOOLS)), hands.Hands()
+        self.state = panel.State(lang=lang, tools=tuple(TOOLS))
         self.presenter = presenter.Presenter(self.overlay)
         self.presents = bool(self.document.stop)
         self.fault, self.notice, self.titled = "", ("", 0.0), ""
         self.moved = self.awake = 0.0
-        self.picked, self._pressed, self._place = None, None, (0.0, 0.0)
-        self._index, self._seen = 0, None  # of the picture under the mouse; the last step
+        self.pointer, self._seen = Pointer(self.stage, self.document.beside), None
         self.with_panel, self.with_keys, self.due = True, False, FRAMES
         self.kept, self.kept_at = None, time.monotonic()
 
@@ -112,6 +112,7 @@ class Viewer:
         self.state.restless, self.state.wake = False, math.inf
         if self.with_panel:
             self.state.view, self.state.tool = self.stage.view, self.drawer.open
+            self.state.home = self.document.home
             self.state.able, self.state.runs = self.document.history.able, self.document.clock.runs
             parts = self.presenter.parts(self.document.stop) if self.presents else panel.ALL
             self._push(panel.draw(self.scene, self.state, parts), self.state.gesture)
@@ -120,6 +121,7 @@ class Viewer:
         self.due = max(self.due, 2 * self.state.restless)
         self._notice_step()
         left, size = self._area()
+        self.pointer.left = left
         self.stage.draw(self.document.beside, self.scene, size, now - self.moved)
         if self.stage.busy:
             self.state.wake = min(self.state.wake, now + IDLE)
@@ -146,15 +148,19 @@ class Viewer:
         """Return what the tools are told."""
         stage, state = self.stage, self.state
         fault = self.document.fault or stage.fault
+        pointed = None if self.desktop.io.want_capture_mouse else self.pointer.pixel
         return Now(
-            *(self.scene, stage.shown, stage.view, self.picked, fault, now - self.moved > REST),
-            *(state, words.TEXT[state.lang], stage, self.overlay, self.document),
-            now,
+            *(self.scene, stage.shown, stage.view, self.pointer.picked, pointed),
+            *(fault, now - self.moved > REST, state, words.TEXT[state.lang]),
+            *(stage, self.overlay, self.document, stage.corner(self._area()[0]), now),
         )
 
     def _wish(self):
         """Do what a button of the panel asks for."""
         wish, self.state.wish = self.state.wish, ""
+        if self.state.path:
+            self._on_drop([self.state.path])
+            self.state.path, self.due = "", FRAMES
         if wish:
             self.drawer.toggle(wish) if wish in TOOLS else getattr(self.document, wish)()
             self.due = FRAMES
@@ -189,44 +195,22 @@ class Viewer:
 
     def _on_press(self, button, held):
         if not self.desktop.io.want_capture_mouse:
-            self._index = self.stage.at(*self._local())
-            self.hands.press(button, held, self.stage.places[self._index][3])
-            plain = button == glfw.MOUSE_BUTTON_LEFT and not held
-            self._pressed = self._place if plain else None
+            self.pointer.press(button, held)
 
     def _on_release(self, _):
-        self.hands.release()
-        if self._pressed and self._pressed == self._place:
-            self.picked = self.stage.pick(self._index, *self._local())
-        self._pressed = None
+        self.pointer.release()
         self.document.history.push(self.document.history.scene)  # ends the step
 
     def _on_move(self, place):
-        self._place = place
-        self._turn(*self.hands.move(place))
+        self.pointer.move(place)
 
     def _on_wheel(self, notches):
         if not self.desktop.io.want_capture_mouse:
-            self._index = self.stage.at(*self._local())
-            self._turn(*self.hands.wheel(notches))
-
-    def _turn(self, turn, key):
-        """Do what the mouse does to the picture under it, to all that are shown."""
-        if turn is None or 0 in self.desktop.size:
-            return
-
-        def turned(scene):
-            return turn(scene, *self.stage.looks(scene, self.stage.places[self._index][2:]))
-
-        self.document.beside.move(turned, key)
-
-    def _local(self):
-        """Return the pixel of the pictures' area where the mouse is."""
-        return self._place[0] - self._area()[0], self._place[1]
+            self.pointer.wheel(notches)
 
     def _on_drop(self, paths):
         for path in paths:
-            self.document.drop(path, self.state.chosen, self.stage.at(*self._local()))
+            self.document.drop(path, self.state.chosen, self.pointer.index)
         self.presents = self.presents or bool(self.document.stop)
 
     def _on_other(self):
