@@ -111,6 +111,7 @@ def test_the_reference_compiler_takes_shadows_and_what_is_shown(model, tmp_path)
 def test_the_reference_compiler_takes_what_is_measured(model, tmp_path):
     shader = catalog.read("model", model)
     needed = {"surround": "surround", "density": "scatter_pdf", "sampled": "sample_scatter"}
+    needed["facet"] = "F_facet"
     kinds = ["scatter", "timed", *(k for k, name in needed.items() if name in shader.defines)]
     kinds += ["weighed"] * ("sampled" in kinds)
     constants = {p.name: p.default for p in shader.parameters if p.constant}
@@ -125,6 +126,18 @@ def test_the_reference_compiler_takes_what_is_measured(model, tmp_path):
 @pytest.mark.parametrize("path", sorted((Path(GLSL) / "studies").iterdir()), ids=lambda p: p.stem)
 def test_the_reference_compiler_takes_the_formulas_of_studies(path, tmp_path):
     """Every choice, one after the other."""
+    if path.read_text().startswith("// light"):
+        light = catalog.read("light", str(path))
+        drawn = [
+            kind for kind in ("light", "exact") if kind == "light" or "irradiance" in light.defines
+        ]
+        points = ("random", "stratified", "spread")
+        lambert = catalog.read("model", "lambert")
+        fixed = lambert.constants(lambert.defaults())
+        kinds = [(kind, one) for kind in drawn for one in points]
+        return glslang(
+            [compose.estimated(lambert, light, fixed, *kind) for kind in kinds], tmp_path
+        )
     shader = catalog.read("model", str(path))
     defaults = {p.name: p.default for p in shader.parameters if p.constant}
     sources = [
@@ -133,7 +146,15 @@ def test_the_reference_compiler_takes_the_formulas_of_studies(path, tmp_path):
         if p.constant
         for value in (p.choices or (False, True))
     ]
-    glslang(sources, tmp_path)
+    glslang(sources or [compose.measured(shader, {}, "timed")], tmp_path)
+
+
+@pytest.mark.parametrize("drawn", ["exact", "light", "even", "cosine", "model", "both"])
+def test_the_reference_compiler_takes_estimates(drawn, tmp_path):
+    model, light = catalog.read("model", "rough_conductor"), catalog.read("light", "quad")
+    fixed = model.constants(model.defaults())
+    points = ("random", "stratified", "spread")
+    glslang([compose.estimated(model, light, fixed, drawn, one) for one in points], tmp_path)
 
 
 def test_the_reference_compiler_takes_the_screen(tmp_path):

@@ -106,7 +106,7 @@ def test_what_is_typed_is_drawn_before_it_is_saved(viewer, own):
     into(viewer)
     drawn = typed(viewer)
     assert drawn == MODEL % "" and not viewer.document.texts.drafts
-    viewer.document.edit(str(own), drawn.replace("k * tint", "tint"), 0.0)
+    viewer.document.gate.edit(str(own), drawn.replace("k * tint", "tint"), 0.0)
     rest(viewer)
     assert (shown(viewer) != before).any() and own.read_text() == MODEL % ""
     assert typed(viewer) == drawn.replace("k * tint", "tint")
@@ -167,7 +167,7 @@ def test_unsaved_text_survives_closing_the_tool_another_model_and_another_file(v
 def test_unsaved_text_survives_closing_the_window(viewer, own):
     before = shown(viewer)
     changed = (MODEL % "").replace("0.4)", "0.9)")
-    viewer.document.edit(str(own), changed, 0.0)
+    viewer.document.gate.edit(str(own), changed, 0.0)
     viewer.release()
     scene = plain().changed("model", str(own))
     with Viewer(Document(scene, restored=True), "en", hidden=True, size=SIZE) as again:
@@ -178,7 +178,7 @@ def test_unsaved_text_survives_closing_the_window(viewer, own):
 
 def test_a_window_opened_afresh_offers_what_was_left(viewer, own, look):
     left = (MODEL % "") + "// left"
-    viewer.document.edit(str(own), left, 0.0)
+    viewer.document.gate.edit(str(own), left, 0.0)
     viewer.release()
     for answer, text in (("Take them up", left), ("Leave them", MODEL % "")):
         with Viewer(plain().changed("model", str(own)), "en", hidden=True, size=SIZE) as again:
@@ -230,7 +230,7 @@ def test_what_comes_with_lumiar_is_saved_as_a_copy_that_the_scene_then_uses(fold
         text = file.read()
     with Viewer(plain().set(shininess=9), "en", hidden=True, size=SIZE) as viewer:
         press(viewer, glfw.KEY_F7)
-        viewer.document.edit(phong, text.replace("value * INV_PI", "value"), 0.0)
+        viewer.document.gate.edit(phong, text.replace("value * INV_PI", "value"), 0.0)
         rest(viewer)
         edited = shown(viewer)
         press(viewer, glfw.KEY_S, CTRL)

@@ -12,23 +12,25 @@ ROOT = Path(__file__).parent.parent
 APP = ROOT / "app" / "lumiar"
 FLOORS = [  # lowest first; a module imports only from floors below its own
     "errors",
-    "files",
+    "files portuguese",
     "parameter cache supervise polygons reference_terms camera tomltext driverlog glsltext "
     "difference contract image sheet gonio captions spectrum claims arguments factors scale "
-    "occluders history words notation watch phrases banner clock timing study bilingual",
+    "occluders history words notation watch phrases banner trial clock timing study bilingual "
+    "colorimetry judge comparing",
     "catalog mesh reference_energy tables panels units estimates card legend slide readout labels "
     "advice chart codearea plates",
     "ledger formats shapes plots factor_table reference flatten daylight widgets desktop auditor "
     "figures",
     "geometry compose parts materials hemisphere surroundings page",
-    "settings factor_card layout content variants navigate overlay",
-    "scenefile stock hands targets",
-    "scene editing",
-    "renderer lesson sections opening texts",
-    "picture options measure views report panel document editor",
-    "hostile measuring falsecolour reflectance deck presenter stage film stopwatch",
-    "examine probe bench",
-    "audit filming datasheet studies",
+    "settings factor_card layout content variants navigate overlay deviation",
+    "scenefile stock hands targets facing",
+    "scene editing contrast pointer sight charts",
+    "renderer lesson opening texts solids rows compare",
+    "picture options measure views report beside estimate editor gate tryout sections shelf",
+    "hostile measuring falsecolour reflectance deck presenter stage film stopwatch panel "
+    "document gallery",
+    "examine probe bench curves plotfiles comparison snapshot",
+    "audit filming datasheet studies plotter prober",
     "drawer",
     "window",
     "verbs benching",
@@ -52,13 +54,21 @@ HOMES = {  # a heavy library and the modules that may know it
         "presenter",
         "overlay",
         "banner",
+        "gallery",
+        "comparison",
         "codearea",
         "editor",
         "desktop",
         "drawer",
         "window",
         "datasheet",
+        "plotter",
+        "prober",
+        "solids",
+        "charts",
         "filming",
+        "rows",
+        "shelf",
     },
     "glfw": {"desktop"},
 }

@@ -107,7 +107,7 @@ def test_what_is_dropped_or_typed_is_tried_first_too(own):
         viewer.desktop.events.append(("drop", [str(bad)]))
         settle(viewer)
         assert f"{bad}: crashes the driver" in viewer.document.fault
-        viewer.document.edit(str(own), CRASH, 0.0)
+        viewer.document.gate.edit(str(own), CRASH, 0.0)
         rest(viewer)
         assert f"{own}: crashes the driver" in viewer.document.fault
         assert (shown(viewer) == before).all() and viewer.scene.objects[0].model.path == str(own)
@@ -115,7 +115,7 @@ def test_what_is_dropped_or_typed_is_tried_first_too(own):
 
 def test_a_crash_that_was_typed_is_not_repeated_when_the_window_is_restored(own):
     with opened(own) as viewer:
-        viewer.document.edit(str(own), CRASH, 0.0)
+        viewer.document.gate.edit(str(own), CRASH, 0.0)
     scene = plain().changed("model", str(own))
     with Viewer(Document(scene, restored=True), "en", hidden=True, size=SIZE) as again:
         settle(again)

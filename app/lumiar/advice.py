@@ -3,6 +3,7 @@
 from . import study
 from .notation import number
 
+NAMED = 5  # in a sentence; what is more is counted
 WORDS = {
     "en": {
         "worth": "{pick} costs {more} {unit} more than {rival} and {gain}: use it.",
@@ -13,6 +14,7 @@ WORDS = {
         " cheaper: use it.",
         "shows": "Its error still shows.",
         "beaten": "No bargain: {names}.",
+        "more": "{} more",
         "default": "Lumiar's default, {name}, is beaten by {names}.",
         "no error": "{pick} has no error to speak of, and nothing is clearly cheaper: use it.",
     },
@@ -25,6 +27,7 @@ WORDS = {
         " use.",
         "shows": "O erro ainda se vê.",
         "beaten": "Não compensa: {names}.",
+        "more": "mais {}",
         "default": "O padrão do Lumiar, {name}, é superado por {names}.",
         "no error": "{pick} não tem erro que conte, e nada é claramente mais barato: use.",
     },
@@ -60,7 +63,9 @@ def sentences(group, metric, names, lang):
         return []
 
     def said(points):
-        return ", ".join(names[p.variant] for p in sorted(points, key=lambda p: p.error))
+        told = [names[p.variant] for p in sorted(points, key=lambda p: p.error)]
+        more = words["more"].format(len(told) - NAMED + 1)
+        return ", ".join(told if len(told) <= NAMED else [*told[: NAMED - 1], more])
 
     rivals = [p for p in group if p.pareto and study.cheaper(p, pick) and p.error > pick.error]
     facts = {"pick": names[pick.variant], "after": number(pick.error, 2, lang), "unit": pick.unit}

@@ -49,10 +49,13 @@ class Bench:
         found = self.instrument.costs([*jobs.values()], seconds, self.clock)
         return dict(zip(jobs, found, strict=True))
 
-    def race(self, jobs, seconds, empty=None):
-        """Return {key: timing.Timing in s} of jobs {key: callable}; empty: a key, see `timing`."""
+    def race(self, jobs, seconds, empty=None, spread=False):
+        """Return {key: timing.Timing in s} of jobs {key: callable} as `timing.race` has it.
+
+        empty is a key.
+        """
         place = None if empty is None else [*jobs].index(empty)
-        found = timing.race([*jobs.values()], self.clock, seconds, place)
+        found = timing.race([*jobs.values()], self.clock, seconds, place, spread)
         return dict(zip(jobs, found, strict=True))
 
     def frame(self, scene):

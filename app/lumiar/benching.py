@@ -149,8 +149,12 @@ def _commit():
     """Return the commit of the checkout that runs, with a digest of what was changed since."""
     try:
         where = ("git", "-C", files.ROOT)
-        at = subprocess.check_output((*where, "rev-parse", "--short", "HEAD"), stderr=-3, text=True)
-        changed = subprocess.check_output((*where, "diff", "HEAD", "--", "app", "glsl"), stderr=-3)
+        at = subprocess.check_output(
+            (*where, "rev-parse", "--short", "HEAD"), stderr=subprocess.DEVNULL, text=True
+        )
+        changed = subprocess.check_output(
+            (*where, "diff", "HEAD", "--", "app", "glsl"), stderr=subprocess.DEVNULL
+        )
     except (OSError, subprocess.CalledProcessError):
         return ""
     import hashlib

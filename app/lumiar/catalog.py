@@ -21,6 +21,7 @@ DEFINES = {
         "sample_scatter": "vec3 sample_scatter(vec3 V, vec2 u, out vec3 L)",
         "scatter_pdf": "float scatter_pdf(vec3 L, vec3 V)",
         "emitted": "vec3 emitted(vec3 V)",
+        "F_facet": "vec3 F_facet(float c)",
     },
     "light": {
         "light": "Incident light(vec3 place, vec2 u)",

@@ -16,6 +16,7 @@ LEFT, RIGHT, TOP, BOTTOM = 50.0, 12.0, 24.0, 46.0
 SIZE, WIDE = 14.0, 0.6  # of letters, and their width over their size, about
 RADIUS = 5.0
 COLOURS = 7
+BEYOND = 1e12  # what no scale is stretched for, as an error where a formula overflows
 SHAPES = (  # on a circle of radius 1: told apart without any colour, too
     "",  # a circle
     "M-.85-.85H.85V.85H-.85Z",
@@ -30,8 +31,8 @@ _STEPS = ((1.0,), (1.0, 3.0), (1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 5.0, 7.0))
 class Mark(NamedTuple):
     """A point: values x and y, the interval of one of them, what it is called in each language.
 
-    style numbers its colour and shape; labels are written beside it where there is room, tips shown
-    when it is pointed at; best: on the front; ring: Lumiar's default.
+    style numbers its colour and shape; labels are written beside it where there is room, tip is
+    shown when it is pointed at; best: on the front; ring: Lumiar's default.
     """
 
     x: float
@@ -39,13 +40,13 @@ class Mark(NamedTuple):
     interval: tuple
     style: int
     labels: dict
-    tips: dict
+    tip: str
     best: bool = False
     ring: bool = False
 
 
 class Axis(NamedTuple):
-    """From low to high on `length` units; where `zero`, what is not above 0 stands at its start."""
+    """From low to high on `length` units; where `zero`, what is not above 0 stands before low."""
 
     low: float
     high: float
@@ -54,9 +55,9 @@ class Axis(NamedTuple):
 
     def at(self, value):
         """Return where a value stands, in units from the start of the axis."""
-        room = 26.0 if self.zero else 0.0
+        room = 36.0 if self.zero else 0.0
         if not value > 0.0:
-            return 0.0
+            return room / 3.0
         share = math.log(value / self.low) / math.log(self.high / self.low)
         return room + min(max(share, 0.0), 1.0) * (self.length - room)
 
@@ -78,8 +79,11 @@ class Axis(NamedTuple):
 
 
 def fitted(values, length, least=4.0):
-    """Return the Axis on which all values stand, with room around; high / low is at least least."""
-    some = [v for v in values if v > 0.0] or [1.0]
+    """Return the Axis on which all values stand, with room around; high / low is at least least.
+
+    What is BEYOND stands at its end.
+    """
+    some = [v for v in values if 0.0 < v < BEYOND] or [1.0]
     low, high = min(some), max(some)
     spare = max((high / low) ** 0.07, 1.15)
     low, high = low / spare, high * spare
@@ -87,14 +91,14 @@ def fitted(values, length, least=4.0):
     return Axis(low / wider, high * wider, length, any(not v > 0.0 for v in values))
 
 
-def glyph(style, x=0.0, y=0.0, full=True, radius=RADIUS):
+def glyph(style, x=0.0, y=0.0, full=True):
     """Return the SVG of a mark's shape in its colour, full or hollow."""
     looks = f'class="c{style % COLOURS}{"" if full else " open"}"'
     shape = SHAPES[style % len(SHAPES)]
     if not shape:
-        return f'<circle {looks} cx="{x:.1f}" cy="{y:.1f}" r="{radius:g}"/>'
+        return f'<circle {looks} cx="{x:.1f}" cy="{y:.1f}" r="{RADIUS:g}"/>'
     # lines keep their width: it is said in the style as not scaling
-    return f'<path {looks} transform="translate({x:.1f} {y:.1f})scale({radius:g})" d="{shape}"/>'
+    return f'<path {looks} transform="translate({x:.1f} {y:.1f})scale({RADIUS:g})" d="{shape}"/>'
 
 
 def svg(marks, titles, along="x", levels=(), lines=()):
@@ -121,21 +125,18 @@ def svg(marks, titles, along="x", levels=(), lines=()):
     for line in lines:
         way = "L".join(f"{at[id(m)][0]:.1f} {at[id(m)][1]:.1f}" for m in line)
         parts.append(f'<path class="line c{line[0].style % COLOURS}" d="M{way}"/>')
+    bars = ""
     for mark, (px, py) in zip(marks, places, strict=True):
-        low, high = mark.interval
+        low, high = map((x if along == "x" else y).at, mark.interval)
         if along == "x":
-            parts.append(
-                f'<path class="bar" d="M{LEFT + x.at(low):.1f} {py:.1f}H{LEFT + x.at(high):.1f}"/>'
-            )
+            bars += f"M{LEFT + low:.1f} {py:.1f}H{LEFT + high:.1f}"
         else:
-            parts.append(
-                f'<path class="bar" d="M{px:.1f} {TOP + up - y.at(low):.1f}'
-                f'V{TOP + up - y.at(high):.1f}"/>'
-            )
+            bars += f"M{px:.1f} {TOP + up - low:.1f}V{TOP + up - high:.1f}"
+    parts.append(f'<path class="bar" d="{bars}"/>')
     for mark, (px, py) in zip(marks, places, strict=True):
-        if mark.ring:
-            parts.append(f'<circle class="ring" cx="{px:.1f}" cy="{py:.1f}" r="9"/>')
-        parts.append(glyph(mark.style, px, py, mark.best or along == "y"))
+        ring = f'<circle class="ring" cx="{px:.1f}" cy="{py:.1f}" r="9"/>' if mark.ring else ""
+        drawn = glyph(mark.style, px, py, mark.best or along == "y")
+        parts.append(f"<g><title>{escape(mark.tip)}</title>{ring}{drawn}</g>")
     for lang in LANGUAGES:
         parts.append(f'<g lang="{lang}">{_words(marks, places, titles, taken, lang)}</g>')
     return f'<svg viewBox="0 0 {WIDTH:g} {HEIGHT:g}" role="img">{"".join(parts)}</svg>'
@@ -193,7 +194,7 @@ def _front(places):
 
 
 def _words(marks, places, titles, taken, lang):
-    """Return the titles and names in one language, and what pointing at a mark tells."""
+    """Return the titles and names in one language."""
     axes = (("end", WIDTH - RIGHT, HEIGHT - 8), ("start", 2.0, 15.0))
     out = [
         f'<text class="{side}" x="{x:g}" y="{y:g}">{escape(title[lang])}</text>'
@@ -202,9 +203,6 @@ def _words(marks, places, titles, taken, lang):
     for where, (px, py), words in _labels(marks, places, taken, lang):
         strong = " strong" if marks[where].best else ""
         out.append(f'<text class="label{strong}" x="{px:.1f}" y="{py:.1f}">{escape(words)}</text>')
-    for mark, (px, py) in zip(marks, places, strict=True):
-        tip = f"<title>{escape(mark.tips[lang])}</title>"
-        out.append(f'<circle class="tip" cx="{px:.1f}" cy="{py:.1f}" r="9">{tip}</circle>')
     return "".join(out)
 
 

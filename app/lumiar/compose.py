@@ -120,16 +120,41 @@ def measured(model, constants, what, strict=False):
     """Return the sources {stage: Source} that evaluate a model, a pair of directions per pixel.
 
     what is "scatter", "surround" (in a white furnace), "timed" (scatter again and again), "density"
-    (scatter_pdf), "sampled" or "weighed" (the direction or the weight that sample_scatter makes of
-    V and of u, in place of L). strict lets no NaN get lost in max, min or clamp.
+    (scatter_pdf), "facet" (F_facet at N.V), "sampled" or "weighed" (the direction or the weight
+    that sample_scatter makes of V and of u, in place of L). strict lets no NaN get lost in max, min
+    or clamp.
     """
     places = {"MODEL": [(model.path, "models", _fixed(model, constants))]}
-    words = ("scatter", "surround", "timed", "density", "weighed")
+    words = ("scatter", "surround", "timed", "density", "facet", "weighed")
     facts = {word: word == what for word in words}
     facts |= {"strict": strict, "sampled": what in ("sampled", "weighed")}
     return {
         "vertex": finish(flatten("rigs/screen.vert", {}, {}, {})),
         "fragment": _watched("rigs/measure.frag", places, {}, facts),
+    }
+
+
+def estimated(model, light, constants, drawn, points):
+    """Return the sources {stage: Source} that estimate what pieces of a surface reflect of a light.
+
+    constants as `surface` takes them, the light being number 1. drawn says how directions are:
+    "exact" (none, the light's `irradiance`), "light", "even" over the hemisphere, "cosine", "model"
+    (its sample_scatter), or "both" (light and model); points of which kind, "random", "stratified"
+    or "spread" (rigs/spread.glsl).
+    """
+    places = {
+        "MODEL": [(model.path, "models", _fixed(model, constants))],
+        "LIGHTS": [(light.path, "lights", _renamed(light, 1, constants))],
+    }
+    words = ("light", "arriving", "density", "irradiance")
+    kinds = {word: [f"{word}_1"] if word in light.defines else [] for word in words}
+    facts = {word: word == drawn for word in ("exact", "even", "cosine", "both")}
+    facts |= {"aimed": drawn in ("light", "both"), "drawn": drawn in ("model", "both")}
+    facts["met"] = drawn in ("even", "cosine", "model", "both")
+    facts |= {"spread": points == "spread", "stratified": points == "stratified"}
+    return {
+        "vertex": finish(flatten("rigs/screen.vert", {}, {}, {})),
+        "fragment": finish(flatten("rigs/estimate.frag", places, kinds, facts)),
     }
 
 

@@ -5,6 +5,7 @@ import time
 
 from . import lesson as lessons
 from . import opening
+from .beside import Beside, Edit
 from .clock import Clock
 from .errors import Mistake, one_line
 from .gate import Gate
@@ -22,6 +23,7 @@ class Document:
     name    of the scene, and path that of its file, or ""
     home    the scene as it was opened; pages and page: (captions, Scene) of a sheet, and which
     stops   of a lesson, one for each page, else []
+    beside  what is shown beside the scene
     texts   what is edited and not saved, and what is wrong in which file; restored: as it was left
     gate    what comes into the scene of what was edited
 
@@ -33,8 +35,9 @@ class Document:
         self.gate = Gate(self.texts)
         self.clock, self._running = Clock(SCENE["time"].high), (None, None)
         self.history, self._known, self._waiting = None, (None, None), None
+        self.beside = Beside(self)
         self.open(scene, name, path)
-        self._read(self.texts.drafts)
+        self.read(self.texts.drafts)
 
     @staticmethod
     def expecting(load, name, path, mistake):
@@ -51,9 +54,9 @@ class Document:
 
     def guard(self, trial):
         """Have a trial.Trial draw what is edited before it comes into the scene, now and later."""
-        self.gate.trial, scene = trial, self.history.scene
+        self.gate.trial, scene = trial, self.history.scene.scene
         try:
-            self.gate.admit(scene)
+            self.gate.admit(self.beside.made(self.history.scene))
         except Mistake as mistake:
             load, name, path = self._load or (lambda: opening.reread(scene)), self.name, self.path
             self.gate.fresh.clear()
@@ -76,15 +79,15 @@ class Document:
         """The paths of the files that hold text: awaited, of the scene, its models and lights."""
         awaited = [self._waiting[-1]] if self._waiting else []
         own = [self.path] if self.path else []
-        shaders = [shader.path for shader in opening.shaders(self.scene)]
+        shaders = [shader.path for shader in self._shaders]
         return [*dict.fromkeys((*awaited, *own, *shaders))]
 
     @property
     def scene(self):
         """The scene as it is, its shaders as their files are, its time where the clock runs."""
-        if self._known[0] is not self.history.scene:
-            now = self.gate.renewed(self.history.scene)
-            self._known = (self.history.scene, now)
+        if self._known[0] is not self.history.scene.scene:
+            now = self.gate.renewed(self.history.scene.scene)
+            self._known = (self.history.scene.scene, now)
         if not self.clock.runs:
             return self._known[1]
         still, time = self._known[1], self.clock.time
@@ -105,7 +108,7 @@ class Document:
     def open(self, scene, name="", path=""):
         """Show a scene, or the first picture of a sheet, instead of what was shown."""
         stops, pages = _pages(scene)
-        self.gate.admit(pages[0][1], self.history and self.scene)
+        self.gate.admit([pages[0][1]], self.history and self.scene)
         self.stops, self.pages, self.page = stops, pages, 0
         self.name, self.path = name, path
         self._begin()
@@ -113,16 +116,21 @@ class Document:
     def turn(self, step):
         """Show the picture of the sheet that is so many further on, if there is one."""
         page = self.page + step
-        if 0 <= page < len(self.pages) and self.gate.admits(self.pages[page][1], self.scene):
+        if 0 <= page < len(self.pages) and self.gate.admits([self.pages[page][1]], self.scene):
             self.page = page
             self._begin()
 
     def push(self, scene, key=None):
         """Make a scene the one that is; see `History.push`."""
-        if scene is not self.scene and self.gate.admits(scene, self.scene):
-            if self.clock.runs and scene.time != self.scene.time:  # set by hand
-                self.clock.start(time.monotonic(), scene.time)
-            self.history.push(scene, key)
+        if scene is not self.scene:
+            self.step(Edit(scene, self.beside.comparison), key)
+
+    def step(self, edit, key=None):
+        """Make an Edit the one that is; see `History.push`."""
+        if self.gate.admits(self.beside.made(edit), self.scene):
+            if self.clock.runs and edit.scene.time != self.scene.time:  # set by hand
+                self.clock.start(time.monotonic(), edit.scene.time)
+            self.history.push(edit, key)
             self._follow()
 
     def play(self):
@@ -151,10 +159,16 @@ class Document:
         self.history.redo()
         self._follow()
 
-    def drop(self, path, chosen=0):
-        """Bring a file into the scene, or open it if it is one; chosen: the object meant."""
+    def drop(self, path, chosen=0, onto=0):
+        """Bring a file into the scene, or open it if it is one; chosen: the object meant.
+
+        onto: the index of the picture that is meant, where several are shown.
+        """
         try:
             scene = lessons.load(path) if lessons.is_lesson(path) else None
+            if onto and not scene:
+                self.beside.drop(path, chosen, onto)
+                return
             scene = scene or opening.dropped(self.scene, path, chosen)
             if opening.is_scene(path):
                 self.open(scene, os.path.splitext(os.path.basename(path))[0], path)
@@ -172,7 +186,7 @@ class Document:
             self._load_again()
         files = self.texts.saved(paths)
         self.texts.faults.pop("", None)
-        self._read(files)
+        self.read(files)
         return self.gate.names(files)
 
     def settle(self):
@@ -180,32 +194,18 @@ class Document:
 
         What is being saved is tried already while it settles.
         """
-        self.gate.foresee(self.watch.moving, self.history.scene)
-        decided = self.gate.settle(self.history.scene)
+        self.gate.foresee(self.watch.moving, self.beside)
+        decided = self.gate.settle(self.beside)
         if not decided:
             return None
         self._renew()
         return self.gate.names(path for path in decided if path not in self.texts.drafts)
 
-    def edit(self, path, text, now):
-        """Take what is typed for a file, without saving it; now in seconds."""
-        self.gate.edit(path, text, now)
-
     def look(self, now, at_once=False):
         """Have what was typed in the scene, once it rests; return whether there was anything."""
         quiet = self.gate.quiet(now, at_once)
-        self._read(quiet)
+        self.read(quiet)
         return bool(quiet)
-
-    def revert(self, path):
-        """Have a file as it is saved, not as edited."""
-        self.texts.forget(path)
-        self._read([path])
-
-    def take_up(self, path):
-        """Have a file as edited when the last window was closed."""
-        self.texts.take(path)
-        self._read([path])
 
     def rename(self, path, copy):
         """Have the scene use a copy, just written, of the file of a model or a light."""
@@ -214,15 +214,17 @@ class Document:
         self.gate.rename(path, copy)
         self._known = (None, None)
         self.push(scene)
-        self._read([copy])
+        self.read([copy])
 
-    def _read(self, paths):
+    def read(self, paths):
+        """Read files again, as edited or as saved; those that include them, too."""
         if paths:
-            self.gate.read(paths, self.history.scene)
+            self.gate.read(paths, self.beside)
             self._renew()
 
     def _renew(self):
         self._known = (None, None)
+        self.beside.stale()
         self._follow()
 
     def _load_again(self):
@@ -230,7 +232,7 @@ class Document:
         try:
             is_lesson = lessons.is_lesson(self.path)
             stops, pages = _pages((lessons.load if is_lesson else Scene.load)(self.path))
-            self.gate.admit(pages[min(self.page, len(pages) - 1)][1], self.scene)
+            self.gate.admit([pages[min(self.page, len(pages) - 1)][1]], self.scene)
         except Mistake as mistake:
             self.texts.faults[self.path] = one_line(mistake)
             return
@@ -259,23 +261,29 @@ class Document:
         self.clock.stop()
         self.home = self.pages[self.page][1]
         if self.history and not self.stops:
-            self.history.push(self.home)
+            self.history.push(Edit(self.home, self.beside.comparison))
         else:
-            self.history = History(self.home)
+            self.history = History(Edit(self.home, self.beside.home))
         self._follow()
 
     @property
     def _followed(self):
         """The paths of all files that the scene is made from."""
-        libraries = self.texts.libraries(opening.shaders(self.scene))
-        return [*self.files, *opening.sources(self.scene), *libraries]
+        sources = (path for one in self.beside.scenes for path in opening.sources(one))
+        libraries = self.texts.libraries(self._shaders)
+        return [*dict.fromkeys((*self.files, *sources, *self.beside.files, *libraries))]
+
+    @property
+    def _shaders(self):
+        """The Shaders of the scene, and of those beside it."""
+        return [shader for one in self.beside.scenes for shader in opening.shaders(one)]
 
     def _follow(self):
         before = self.watch.paths
         self.watch.follow(self._followed)
         back = [path for path in self.gate.fresh if path in self.watch.paths - before]
         if back:  # they may have been saved while the scene had no use for them
-            self._read(back)
+            self.read(back)
 
 
 def _pages(scene):

@@ -6,11 +6,10 @@ from imgui_bundle import imgui
 
 from .words import TEXT
 
+# {name: its key}, in the order of their buttons
 TOOLS = {
-    "sheet": "F4",
-    "editor": "F7",
-    "film": "F8",
-}  # {name: its key}, in the order of their buttons
+    **{"compare": "F2", "plots": "F3", "sheet": "F4", "probe": "F6", "editor": "F7", "film": "F8"}
+}
 WIDE, NARROWEST = 0.34, 18.0  # share of the window, and the least in sizes of letters
 WIDER = {"editor": 0.42}  # share for what has long lines
 
@@ -20,12 +19,13 @@ class Now(NamedTuple):
 
     scene    as edited; what `draw` returns takes its place
     shown    the last one that could be drawn, as framed for the picture; view its (eye, target)
-    picked   pixel (x, y) of the picture that was clicked, or None
+    picked   pixel (x, y) of the picture that was clicked, or None; pointed: that below the mouse
     fault    the line of what is wrong, while something is
     rests    whether nothing has changed for a moment: the time for what takes long
     state    panel.State; words: those of its language
     stage    the picture, with its renderer and context; images: Overlay, see `image` there
     document what is open, and its files
+    corner   (x, y) of the window where that picture begins, in pixels
     time     of this frame, in seconds
     """
 
@@ -33,6 +33,7 @@ class Now(NamedTuple):
     shown: object
     view: tuple
     picked: tuple | None
+    pointed: tuple | None
     fault: str
     rests: bool
     state: object
@@ -40,6 +41,7 @@ class Now(NamedTuple):
     stage: object
     images: object
     document: object
+    corner: tuple
     time: float
 
 
@@ -97,6 +99,10 @@ class Drawer:
 
 def _made(name, now):
     """Return a tool; what it needs is imported only here."""
+    if name == "compare":
+        from .comparison import Comparing
+
+        return Comparing()
     if name == "sheet":
         from .datasheet import Datasheet
 
@@ -109,4 +115,12 @@ def _made(name, now):
         from .filming import Filming
 
         return Filming()
+    if name == "plots":
+        from .plotter import Plots
+
+        return Plots(now)
+    if name == "probe":
+        from .prober import Prober
+
+        return Prober(now)
     raise ValueError(name)

@@ -30,9 +30,8 @@ def figure(one, group, styles, advised):
         names, (kind, count) = name_of(one, point.variant), series(point.variant)
         short = dict.fromkeys(TEXT, count if priced else "") if kind in lines else names
         x, y = (point.cost, point.error) if priced else (point.parameters[scaled], point.cost)
-        tips = {lang: _tip(point, names[lang], lang) for lang in TEXT}
-        interval, style = (point.low, point.high), styles[kind]
-        marks[point.variant] = Mark(x, y, interval, style, short, tips, point.pareto, point.default)
+        interval, style, tip = (point.low, point.high), styles[kind], _tip(point, names)
+        marks[point.variant] = Mark(x, y, interval, style, short, tip, point.pareto, point.default)
     head = [f"<b>{said(name_of(one, group[0].case))}</b>"]
     head.append(f'<p class="metric">{said(name_of(one, group[0].metric))}</p>')
     head += [said(texts, "p") for texts in advised]
@@ -76,13 +75,12 @@ def _varied(group):
     return name if name and len(seen[name]) > 1 else ""
 
 
-def _tip(point, name, lang):
-    """Return what pointing at a mark tells."""
-    cost, low, high = (number(x, 3, lang) for x in (point.cost, point.low, point.high))
-    lines = [name, f"{TEXT[lang]['cost']} {cost} {point.unit} ({low} … {high})"]
-    if point.error is not None:
-        lines.insert(1, f"{TEXT[lang]['error']} {number(point.error, 3, lang)}")
-    return "\n".join(lines)
+def _tip(point, names):
+    """Return what pointing at a mark tells, in every language."""
+    cost, low, high = (number(x) for x in (point.cost, point.low, point.high))
+    error = "" if point.error is None else f"{number(point.error)}; "
+    said = " · ".join(dict.fromkeys(names.values()))
+    return f"{said}\n{error}{cost} {point.unit} ({low} … {high})"
 
 
 def _keys(one, group, lines, styles):
@@ -110,8 +108,17 @@ def _alike(a, b):
 
 
 def _key(style, full=True):
-    mark = chart.glyph(style, 0.0, 0.0, full)
-    return f'<svg class="key" viewBox="-7 -7 14 14" aria-hidden="true">{mark}</svg>'
+    return f'<svg class="key" viewBox="-7 -7 14 14">{chart.glyph(style, 0.0, 0.0, full)}</svg>'
+
+
+def alone(one, points, styles):
+    """Return a figure of points that are their case's only variant: nothing to plot, but values."""
+    rows = []
+    for point in points:
+        names = [name_of(one, key) for key in (point.case, point.variant, point.metric)]
+        names = {lang: "{}: {}, {}".format(*(each[lang] for each in names)) for lang in TEXT}
+        rows.append(_row(said(names), point, styles))
+    return f'<figure class="all"><b>{said(word("alone"))}</b>{_table(rows)}</figure>'
 
 
 def _values(one, group, styles):
@@ -120,18 +127,25 @@ def _values(one, group, styles):
     for point in sorted(group, key=lambda p: p.cost):
         told = [said(name_of(one, point.variant))]
         told += [f"({said(word('default'))})"] if point.default else []
-        name = _key(styles[series(point.variant)[0]], point.pareto) + " ".join(told)
-        numbers = ["" if point.error is None else number(point.error)]
-        numbers += [f"{number(point.cost)} {point.unit}"]
-        numbers += [f"{number(point.low)} … {number(point.high)}"]
-        cells = "".join(f'<td class="n">{text}</td>' for text in numbers)
-        best = ' class="best"' if point.pareto else ""
-        rows.append(f'<tr{best}><th scope="row">{name}</th>{cells}</tr>')
-    heads = "".join(f"<th>{said(word(key))}</th>" for key in ("error", "cost", "interval"))
+        rows.append(_row(" ".join(told), point, styles))
     off, unit = group[0].taken_off, group[0].unit
     told = {lang: words["off"].format(number(off, 3, lang), unit) for lang, words in TEXT.items()}
     off = f"<p>{said(told)}</p>" if off else ""
-    return (
-        f'<details><summary>{said(word("values"))}</summary><div class="wide"><table><thead><tr>'
-        f"<th></th>{heads}</tr></thead><tbody>{''.join(rows)}</tbody></table></div>{off}</details>"
-    )
+    return f"<details><summary>{said(word('values'))}</summary>{_table(rows)}{off}</details>"
+
+
+def _row(name, point, styles):
+    """Return the row of a table that holds a point, under a name that is HTML already."""
+    mark = _key(styles[series(point.variant)[0]], point.pareto or point.error is None)
+    numbers = ["" if point.error is None else number(point.error)]
+    numbers += [f"{number(point.cost)} {point.unit}"]
+    numbers += [f"{number(point.low)} … {number(point.high)}"]
+    cells = "".join(f'<td class="n">{text}</td>' for text in numbers)
+    best = ' class="best"' if point.pareto else ""
+    return f'<tr{best}><th scope="row">{mark}{name}</th>{cells}</tr>'
+
+
+def _table(rows):
+    heads = "".join(f"<th>{said(word(key))}</th>" for key in ("error", "cost", "interval"))
+    head = f"<thead><tr><th></th>{heads}</tr></thead>"
+    return f'<div class="wide"><table>{head}<tbody>{"".join(rows)}</tbody></table></div>'

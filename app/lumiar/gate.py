@@ -40,36 +40,32 @@ class Gate:
             del self._typed[path]
         return found
 
-    def read(self, paths, scene):
-        """Read those Shaders of a scene again that are files of such paths, or include them.
+    def read(self, paths, beside):
+        """Read those Shaders again that are files of such paths, or include them.
 
-        See `settle` for when they are fresh.
+        beside: a Beside, of all whose scenes. See `settle` for when they are fresh.
         """
         self._texts.faults.pop("", None)
-        for path, shader in self._shaders(scene).items():
+        for path, (shader, _) in _shaders(beside.scenes).items():
             if path in paths or not self._texts.libraries([shader]).isdisjoint(paths):
                 made = self._texts.read(shader, paths)
                 self.waiting.pop(path, None)  # what it was a moment ago
                 self.waiting |= {path: made} if made else {}
-        self.settle(scene)
+        self.settle(beside)
 
-    def foresee(self, moving, scene):
+    def foresee(self, moving, beside):
         """Try what is being saved already while it settles; moving: {path: state} of files."""
-        trial = self.trial
-        if not moving or not trial:
+        if not moving or not self.trial or self.trial.busy:
             return
-        for path, shader in self._shaders(scene).items():
+        for path, (shader, scene) in _shaders(beside.scenes).items():
             state = moving.get(path)
-            if not state or state == self._seen.get(path) or path in self._texts.drafts:
-                continue
-            if not trial.busy:
+            if state and state != self._seen.get(path) and path not in self._texts.drafts:
                 self._seen[path] = state
                 with contextlib.suppress(Mistake):  # told once it has settled
-                    made = self._texts.parsed(shader)
-                    if trial.line(made) is None:
-                        trial.ask(self._with(scene, {path: made}), [made], self.renewed(scene))
+                    self._ask({path: self._texts.parsed(shader)}, scene)
+                return
 
-    def settle(self, scene):
+    def settle(self, beside):
         """Return the paths of what is decided by now: fresh, or wrong."""
         trial, decided = self.trial, []
         if trial:
@@ -85,9 +81,21 @@ class Gate:
                     self._texts.faults.pop(path, None)
                     self.fresh[path] = shader
         if self.waiting and not trial.busy:
-            shaders = [*self.waiting.values()]
-            trial.ask(self._with(scene, self.waiting), shaders, self.renewed(scene))
+            known = _shaders(beside.scenes)
+            first = next((path for path in self.waiting if path in known), None)
+            if first:
+                self._ask(self.waiting, known[first][1])
+            else:
+                self.waiting.clear()  # no scene has a use for it any more
         return decided
+
+    def _ask(self, shaders, scene):
+        """Have those of {path: Shader} tried that a scene has a use for."""
+        there = [one for path, one in shaders.items() if path in _shaders([scene])]
+        if any(self.trial.line(one) is None for one in there):
+            memory = {key: dict(values) for key, values in self._memory.items()}
+            tried = opening.renewed(scene, self.fresh | {one.path: one for one in there}, memory)
+            self.trial.ask(tried, there, scene)
 
     def rename(self, path, copy):
         """Have a copy of a file take the place of it."""
@@ -103,24 +111,24 @@ class Gate:
         bad = self._texts.faults.keys() | self.waiting.keys()
         return sorted(os.path.basename(path) for path in paths if path not in bad)
 
-    def admit(self, scene, before=None):
-        """Try a scene before it is shown, where it has files of one's own; raise Mistake."""
-        trial, own = self.trial, self.own(scene)
-        if not trial:
-            return
-        if any(trial.line(shader) is None for shader in own):
-            trial.wait()  # for what was asked before
-            trial.ask(self.renewed(scene), own, before)
-            trial.wait()
-        for shader in own:
-            if line := trial.line(shader):
-                raise Mistake(line)
+    def admit(self, scenes, before=None):
+        """Try scenes before they are shown, where they have files of one's own; raise Mistake."""
+        trial = self.trial
+        for scene in scenes if trial else ():
+            own = self.own(scene)
+            if any(trial.line(shader) is None for shader in own):
+                trial.wait()  # for what was asked before
+                trial.ask(self.renewed(scene), own, before)
+                trial.wait()
+            for shader in own:
+                if line := trial.line(shader):
+                    raise Mistake(line)
 
-    def admits(self, scene, before):
+    def admits(self, scenes, before):
         """Return whether `admit` does; say why not in the faults."""
         self._texts.faults.pop("", None)
         try:
-            self.admit(scene, before)
+            self.admit(scenes, before)
         except Mistake as mistake:
             self._texts.faults[""] = one_line(mistake)
             return False
@@ -128,12 +136,10 @@ class Gate:
 
     def own(self, scene):
         """Return the Shaders of a scene that are not as they came with Lumiar."""
-        shaders = self._shaders(scene).values()
+        shaders = [shader for shader, _ in _shaders([self.renewed(scene)]).values()]
         return [one for one in shaders if one.path in self.fresh or not one.path.startswith(_OURS)]
 
-    def _shaders(self, scene):
-        return {shader.path: shader for shader in opening.shaders(self.renewed(scene))}
 
-    def _with(self, scene, shaders):
-        memory = {key: dict(values) for key, values in self._memory.items()}
-        return opening.renewed(scene, {**self.fresh, **shaders}, memory)
+def _shaders(scenes):
+    """Return {path: (Shader, the scene it is of)}."""
+    return {one.path: (one, scene) for scene in reversed(scenes) for one in opening.shaders(scene)}

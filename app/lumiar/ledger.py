@@ -11,6 +11,7 @@ clock, quick}, "studies": [study, …]}; a study is {"name", "title": {language:
 import csv
 import io
 import json
+import statistics
 
 from . import advice, study
 from .errors import Mistake
@@ -139,26 +140,37 @@ def changes(old, new):
     """Return (lines, whether something is worse): what changed between reports beyond noise.
 
     Errors by any digit; costs where intervals do not overlap and they differ by more than CHANGED,
-    after the speed of the machine, told by what was taken off, is taken out.
+    after the ratio in the middle of all, taken for the machine's speed, is taken out.
     """
     lines, worse = [], False
-    before = {(p.study, p.case, p.variant, p.metric): p for p in points(old)}
-    for now in points(new):
-        was = before.get((now.study, now.case, now.variant, now.metric))
-        if was is None or was.unit != now.unit:
-            continue
+    before = {_key(point): point for point in points(old)}
+    pairs = [(before[_key(now)], now) for now in points(new) if _key(now) in before]
+    speed = _middle([now.cost / was.cost for was, now in pairs if was.cost > 0.0 < now.cost])
+    if abs(speed - 1.0) > CHANGED:
+        lines.append(f"costs are {speed:.2f} times the old ones on the whole: taken out below")
+    for was, now in pairs:
         place = f"{now.study}, {now.case}, {now.variant}"
         if was.error != now.error:
             worse = worse or now.error is None or (was.error or 0.0) < now.error
             lines.append(f"{place}: {now.metric} error {was.error} -> {now.error}")
-        speed = now.taken_off / was.taken_off if was.taken_off and now.taken_off else 1.0
         was = was._replace(**{k: getattr(was, k) * speed for k in ("cost", "low", "high")})
         apart = study.cheaper(now, was) or study.cheaper(was, now)
         if apart and abs(now.cost - was.cost) > CHANGED * abs(was.cost):
             worse = worse or now.cost > was.cost
-            figures = f"{was.cost:.3g} -> {now.cost:.3g} {now.unit}"
-            lines.append(f"{place}: cost {figures} at the machine's speed now")
+            lines.append(f"{place}: cost {was.cost:.3g} -> {now.cost:.3g} {now.unit}")
     return list(dict.fromkeys(lines)), worse
+
+
+def _key(point):
+    return point.study, point.case, point.variant, point.metric, point.unit
+
+
+def _middle(ratios):
+    """Return the median ratio; 1 where it lies between the two in the middle, or there is none."""
+    if not ratios:
+        return 1.0
+    low, high = statistics.median_low(ratios), statistics.median_high(ratios)
+    return min(max(1.0, low), high)
 
 
 class _names(dict):

@@ -73,6 +73,11 @@ class Instrument(OnCard):
         with self.context:
             return self._measured(model, values, pairs, "surround", strict)
 
+    def facet(self, model, values, pairs):
+        """Return the Fresnel reflectance F_facet at N.V of Pairs, (n, 3) float32."""
+        with self.context:
+            return self._measured(model, values, pairs, "facet", False)
+
     def sampled(self, model, values, V, u):
         """Return L (n, 3), weight (n, 3) and pdf (n,) of sample_scatter for V (n, 3), u (n, 2)."""
         pairs = self.pairs(np.pad(np.asarray(u), ((0, 0), (0, 1))), V)

@@ -119,7 +119,7 @@ def measurement(instrument, models, setup):
         found.append(gonio.noisy(scatter, setup.noise, generator) if setup.noise else scatter)
     header = {
         "program": f"Lumiar {__version__}, lumiar measure",
-        **_described(models),
+        **described(models),
         "light": f"{', '.join(f'{x:g}' for x in setup.lights)} degrees from the normal",
         "azimuth": f"{setup.azimuth:g} degrees, of the light from the tangent",
         "detector": _scan(setup),
@@ -158,8 +158,8 @@ def _scan(setup):
     return f"in the plane of incidence, {way} degrees, negative on the light's side"
 
 
-def _described(models):
-    """Return what a table's header says of Chosen models, numbered from 1."""
+def described(models):
+    """Return what a table's header says of Chosen models, numbered from 1: {key: text}."""
     told = {}
     for i, one in enumerate(models, 1):
         told[f"model {i}"] = one.label
@@ -209,12 +209,12 @@ def picture(instrument, models, setup, asked, measured, overlays, lang, ending, 
     return plots.measurement(title, under, curves, points, albedos, lobes, lang, ending)
 
 
-def albedo(instrument, one, azimuth=0.0):
-    """Return the panels.Albedo of a Chosen model.
+def albedo(instrument, one, azimuth=0.0, angles=INCIDENCE):
+    """Return the panels.Albedo of a Chosen model for light from angles, in degrees.
 
     Where it scatters nothing, as a mirror does, that of its surroundings in a white furnace.
     """
-    angles, turn = np.array(INCIDENCE, np.float64), math.radians(azimuth)
+    angles, turn = np.array(angles, np.float64), math.radians(azimuth)
     values, error = measure.albedo(
         instrument, one.shader, one.values, np.radians(angles), turn, 10, one.highest > 90.0
     )

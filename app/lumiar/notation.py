@@ -68,6 +68,8 @@ def shown(value):
 
 def number(value, digits=3, lang="en"):
     """Return a number rounded to so many digits as people write it: 0.036, 300, 1.6·10⁻⁵."""
+    if not math.isfinite(value):
+        return "∞" if value > 0.0 else str(value)
     share, power = f"{value:.{digits - 1}e}".split("e")
     if -4 < int(power) < 4:
         text = f"{float(share + 'e' + power):g}"

@@ -9,7 +9,7 @@ from html import escape
 
 from . import files, plates, study
 from .bilingual import TEXT, name_of, said, word
-from .figures import figure, series
+from .figures import alone, figure, series
 from .notation import number
 
 FRAME = os.path.join(files.ASSETS, "bench", "page.html")
@@ -76,12 +76,17 @@ def _study(one, pictures):
     styles = {}
     for point in found:
         styles.setdefault(series(point.variant)[0], len(styles))
-    cases, plots, told = {}, [], ()  # advice that was just given is not given once more
+    cases, plots, lone, told = {}, [], [], ()
     for (case, _), group in study.grouped(found).items():
+        cases[case] = _pictures(one, case, pictures)
+        if len(group) == 1:
+            lone += group
+            continue
         advised = _advised(one, group[0])
         words = [case, *(sorted(texts["en"].split(" ")) for texts in advised)]
         plots.append(figure(one, group, styles, advised if words != told else ()))
-        cases[case], told = _pictures(one, case, pictures), words
+        told = words  # advice that was just given is not given once more
+    plots += [alone(one, lone, styles)] if lone else []
     parts = [f'<section id="{escape(one["name"])}"><h2>{said(one["title"])}</h2>']
     parts += [said(texts, "p", "remark") for texts in one["remarks"]]
     parts.append(f'<div class="plots">{"".join(plots)}</div>')

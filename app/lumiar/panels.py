@@ -82,19 +82,23 @@ class Scale(NamedTuple):
         return [self.low * 10.0**i for i in range(0, decades + 1, 1 + decades // 6)]
 
 
-def scale(curves):
-    """Return the Scale that suits Curves: logarithmic where a peak towers above the rest."""
+def scale(curves, log=None):
+    """Return the Scale that suits Curves or Lobes: logarithmic where a peak towers above the rest.
+
+    log says so instead, unless it is None.
+    """
     every = np.concatenate([(c.f @ LUMINANCE).ravel() for c in curves] or [np.zeros(1)])
     every = every[np.isfinite(every) & (every > 0.0)]
     if not len(every):
         return Scale(False, 0.0, 1.0)
     peak, middle = every.max(), np.median(every)
-    if peak < STEEP * middle:
+    if not (peak >= STEEP * middle if log is None else log):
         digit = 10.0 ** math.floor(math.log10(peak))
         nice = next(m for m in (1.0, 1.2, 1.6, 2.0, 3.0, 4.0, 6.0, 8.0, 10.0) if m * digit >= peak)
         return Scale(False, 0.0, nice * digit)
     high = 10.0 ** math.ceil(math.log10(peak))
-    return Scale(True, max(10.0 ** math.floor(math.log10(middle / 3)), high / 10**DECADES), high)
+    low = max(10.0 ** math.floor(math.log10(middle / 3)), high / 10**DECADES)
+    return Scale(True, min(low, high / 10.0), high)
 
 
 def looks(labels, curves, points=()):
@@ -219,6 +223,22 @@ def albedo(axes, albedos, words):
     if any(a.surround for a in albedos):
         said.append(words["mirror"].format("" if one else words["dotted"]))
     axes.text(0.5, -0.26, "; ".join(said), transform=axes.transAxes, ha="center", fontsize=12)
+
+
+def reflectance(axes, reflectances, words):
+    """Draw Fresnel reflectances, Albedos without an error, against the angle on the facet."""
+    one, top = len(reflectances) == 1, 1.0
+    for i, curve in enumerate(reflectances):
+        channels = [(curve.values @ LUMINANCE, COLOURS[i % len(COLOURS)], "-", curve.label)]
+        if one and np.ptp(curve.values, axis=1).max() > 1e-3:
+            channels = [(curve.values[:, k], c, s, name) for k, (name, c, s) in enumerate(CHANNELS)]
+        for value, colour, style, name in channels:
+            axes.plot(curve.angles, value, color=colour, ls=style, label=name)
+            top = max(top, np.nanmax(value, initial=0.0, where=np.isfinite(value)))
+    axes.legend(loc="upper left")
+    axes.set(xlim=(0, 90), ylim=(0.0, 1.05 * min(top, 10.0)), xticks=range(0, 91, 15))
+    words = words["plots"]
+    axes.set(xlabel=words["facet"], ylabel=words["reflected"], title=words["tabs"]["fresnel"])
 
 
 def lobes(axes, lobes, size, labels, words):

@@ -77,6 +77,41 @@ def measurement(title, subtitle, curves, points, albedos, lobes, lang, ending):
     return drawn(draw, (16.0, 10.5), ending)
 
 
+def single(kind, title, subtitle, shown, points, lang):
+    """Return the bytes of a .png of one panel: polar, curve, lobe, albedo or fresnel.
+
+    shown holds what such a panel has, Curves, Lobes, or Albedos; points: Curves drawn as points.
+    """
+    words, labels = TEXT[lang], [one.label for one in shown]
+    if points:
+        words = {**words, "plane": words["plots"]["plane"]}
+
+    def draw(figure):
+        lines = [*shown] if kind in ("polar", "curve") else []
+        look = panels.looks(labels, lines, points if lines else ())
+        where = {"left": 0.13, "right": 0.95, "bottom": 0.25, "top": 0.82}
+        place = figure.add_gridspec(1, 1, **where)[0, 0]
+        figure.suptitle(one_line(title, 60), fontsize=22, y=0.98)
+        _under(figure, subtitle, 90)
+        scale = panels.scale([*shown, *points]) if kind in ("polar", "curve", "lobe") else None
+        if kind == "polar":
+            panels.polar(figure.add_subplot(place, projection="polar"), look, scale, words)
+        elif kind == "curve":
+            panels.cartesian(figure.add_subplot(place), look, scale, words)
+        elif kind == "lobe":
+            axes = figure.add_subplot(place, projection="3d")
+            panels.lobes(axes, shown, scale, labels, words)
+        elif kind == "albedo":
+            panels.albedo(figure.add_subplot(place), shown, words)
+        else:
+            panels.reflectance(figure.add_subplot(place), shown, words)
+        if kind != "fresnel":
+            given = [panels.Curve(one.label, 0.0, None, None) for one in shown]
+            _legend(figure, look or panels.looks(labels, given), words)
+
+    return drawn(draw, (11.0, 9.0), ".png")
+
+
 def data_sheet(sheet, picture_pixels, size, lang):
     """Return the bytes of a PNG, one page that shows all of a Sheet beside a rendered picture.
 

@@ -34,7 +34,7 @@ what is mirrored, even of a light from one direction, whose image is drawn nowhe
 import math
 from typing import NamedTuple
 
-from . import geometry, layout, reflectance, units, variants
+from . import facing, geometry, layout, reflectance, units, variants
 from .errors import Mistake
 
 SAMPLES = 4096  # directions to a light with an extent
@@ -93,7 +93,7 @@ def measured(scene, at, renderer, instrument):
     number = round(number[0])
     one = scene.objects[number - 1]
     what = {"name": one.name, "mesh": one.mesh, "model": one.model.name}
-    V = _unit(renderer.pixel(variants.lit_by(scene, ()), *at, shows="eye"))
+    V = facing.to_eye(scene, at, renderer)
     point = _Point(bare, at, one, V, renderer, instrument)
     return {**found, "object": {"number": number, **what}, **_reading(point, seen)}
 
@@ -138,7 +138,7 @@ def _reading(point, seen):
     albedo = reflectance.toward(*point.material, point.V)
     return {
         **{"position_m": [*position], "normal": [*normal]},
-        **{"distance_m": math.dist(eye, position), "theta_o_deg": _theta(point.V)},
+        **{"distance_m": math.dist(eye, position), "theta_o_deg": facing.theta(point.V)},
         **{**found, "exitance_exact": exact},
         **_weighted("albedo_to_eye_rgb", "albedo_to_eye", albedo),
         "lights": lights,
@@ -157,14 +157,16 @@ def _lit(point, number, own):
     found |= _quantity("radiance", L, efficacy) | _quantity("irradiance", E, efficacy)
     found |= dict.fromkeys(OF_DIRECTIONS)
     albedo, exact = None, light.kind.name in units.UNIFORM
-    middle = variants.middle(light)
-    if middle:
-        way = _unit(point.pixel(variants.lit_by(point.scene, [middle]), "toward"))
-        turn = math.degrees(_azimuth(way) - _azimuth(V))
-        found |= {"theta_i_deg": _theta(way), "azimuth_deg": abs((turn + 180.0) % 360.0 - 180.0)}
+    way = facing.to_light(point.scene, light, point.at, point.renderer)
+    if way:
+        turn = math.degrees(facing.azimuth(way) - facing.azimuth(V))
+        found |= {
+            "theta_i_deg": facing.theta(way),
+            "azimuth_deg": abs((turn + 180.0) % 360.0 - 180.0),
+        }
         f = reflectance.bidirectional(*point.material, way, V)
-        angles = [math.radians(_theta(way))]
-        albedo = reflectance.albedo(*point.material, angles, _azimuth(way))[0]
+        angles = [math.radians(facing.theta(way))]
+        albedo = reflectance.albedo(*point.material, angles, facing.azimuth(way))[0]
         found |= _weighted("f_rgb_1_sr", "f_1_sr", f) | _weighted("albedo_rgb", "albedo", albedo)
         exact = not light.kind.sampled
     model, values = point.object.model, point.object.values
@@ -212,17 +214,3 @@ def _weighted(channels, single, rgb):
         return {channels: None, single: None}
     rgb = [*map(float, rgb)]
     return {channels: rgb, single: units.luminance(rgb) / units.EFFICACY}
-
-
-def _unit(a):
-    length = math.hypot(*a)
-    return tuple(x / length for x in a)
-
-
-def _theta(w):
-    """Return the angle from the normal [degrees] of a direction in the local frame."""
-    return math.degrees(math.atan2(math.hypot(w[0], w[1]), w[2]))
-
-
-def _azimuth(w):
-    return math.atan2(w[1], w[0])

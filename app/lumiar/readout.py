@@ -21,30 +21,42 @@ def as_json(found):
 
 def text(found, scene, lang):
     """Return the table of what `probe.measured` found in the scene of a name, in en or pt."""
+    parts = [_columns(rows) for rows in tables(found, scene, lang)]
+    if found["lights"]:
+        parts.append(captions.TEXT[lang]["probe"]["angles"])
+    return "\n\n".join(parts)
+
+
+def tables(found, scene, lang):
+    """Return what `text` tells as tables, rows of texts: what is seen, its quantities, the lights.
+
+    All but the first have a row that says what the columns are; without lights there are two.
+    """
     words = captions.TEXT[lang]["probe"]
     (x, y), (width, height) = found["at_px"], found["size_px"]
-    lines = [[words["at"], f"{scene}: {x}, {y} {words['of']} {width} x {height}"]]
+    where = f"{x}, {y} {words['of']} {width} x {height}"
+    lines = [[words["at"], f"{scene}: {where}" if scene else where]]
     lines.append([words["object"], _object(found["object"], words)])
     if found["object"]:
         lines.append([words["position"], f"{_list(found['position_m'])} m"])
         lines.append([words["normal"], _list(found["normal"])])
         distance, angle = found["distance_m"], found["theta_o_deg"]
-        lines.append([words["eye"], f"{_number(distance)} m, θₒ {angle:.4g}°"])
+        lines.append([words["eye"], f"{number(distance)} m, θₒ {angle:.4g}°"])
     table = [["", words["radiometric"], words["photometric"], words["rgb"]]]
     for name, watts, unit, lumens, other, rgb in _ROWS:
         if found[watts] is not None:
             about = words[name]
             if name == "M" and not found["exitance_exact"]:
                 about += words["estimate"]
-            photometric = f"{_number(found[lumens])} {other}" if lumens else ""
-            row = [about, f"{_number(found[watts])} {unit}".strip(), photometric]
+            photometric = f"{number(found[lumens])} {other}" if lumens else ""
+            row = [about, f"{number(found[watts])} {unit}".strip(), photometric]
             table.append([*row, _list(found[rgb])])
-    parts = [_columns(lines), _columns(table)]
+    parts = [lines, table]
     if found["lights"]:
         rows = [[words["light"], "L cd/m²", "%", "E lx", "%", "E W/m²", "lm/W", *_OF_DIRECTIONS]]
         rows += [_light(light) for light in found["lights"]]
-        parts += [_columns(rows), words["angles"]]
-    return "\n\n".join(parts)
+        parts.append(rows)
+    return parts
 
 
 def _plain(value):
@@ -63,9 +75,9 @@ def _light(light):
     name = " ".join(filter(None, (str(light["number"]), light["kind"], light["name"])))
     shares = (light["share_of_luminance"], light["share_of_illuminance"])
     L, E = ("-" if share is None else f"{100.0 * share:.3g}" for share in shares)
-    row = [name, _number(light["luminance_cd_m2"]), L, _number(light["illuminance_lx"]), E]
+    row = [name, number(light["luminance_cd_m2"]), L, number(light["illuminance_lx"]), E]
     keys = ("irradiance_W_m2", "efficacy_lm_W", "theta_i_deg", "azimuth_deg", "f_1_sr", "albedo")
-    return row + [_number(light[key]) for key in keys]
+    return row + [number(light[key]) for key in keys]
 
 
 def _object(one, words):
@@ -83,8 +95,9 @@ def _columns(rows):
 
 
 def _list(numbers):
-    return ", ".join(map(_number, numbers))
+    return ", ".join(map(number, numbers))
 
 
-def _number(x):
+def number(x):
+    """Return a number as the table has it, to five digits; "-" for None."""
     return "-" if x is None else "0" if abs(x) <= 1e-12 else f"{x:.5g}"

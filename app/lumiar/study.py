@@ -3,7 +3,7 @@
 import itertools
 from typing import NamedTuple
 
-ALIKE = 1.25  # ratio of costs up to which a lower error decides
+ALIKE = 1.35  # ratio of costs beyond which they are too vague for a lower error to decide
 CLEAR = 1.05  # ratio of errors from which one is the lower, where the costs are alike
 FLOAT = 4e-6  # relative error that float32 leaves in a good formula; what is below is alike
 

@@ -23,6 +23,7 @@ class Targets:
         if key not in self._made:
             self.release()
             context, size = self._owner.context, (width * side, rows * side)
+            _ = context.error  # an older one is not about memory
             radiance = [context.texture(size, 4, dtype="f4")]
             radiance = context.framebuffer(radiance, context.depth_renderbuffer(size))
             pixels = context.texture((width, rows), 4, dtype="f4" if linear else "f1")

@@ -10,13 +10,16 @@ uniform vec3 f0 = vec3(1.0, 0.71, 0.29);       // color: reflectance at normal i
 uniform vec3 f82 = vec3(0.966, 0.858, 0.661);  // color: reflectance at 82 degrees, for f82
 uniform int form = 0;                          // {exact, schlick, f82}: the Fresnel reflectance
 
+vec3 F_facet(float c) {
+    vec3 dip = form == FORM_F82 ? F82_dip(f0, f82) : vec3(0.0);
+    return form == FORM_EXACT ? 1.0 - A_conductor(c, eta, k) : F_f82(f0, dip, c);
+}
+
 vec3 scatter(vec3 L, vec3 V) {
     return vec3(0.0);
 }
 
 vec3 surround(vec3 V) {
     if (V.z <= 0.0) return vec3(0.0);
-    vec3 dip = form == FORM_F82 ? F82_dip(f0, f82) : vec3(0.0);
-    vec3 F = form == FORM_EXACT ? 1.0 - A_conductor(min(V.z, 1.0), eta, k) : F_f82(f0, dip, min(V.z, 1.0));
-    return F * environment(vec3(-V.xy, V.z));
+    return F_facet(min(V.z, 1.0)) * environment(vec3(-V.xy, V.z));
 }

@@ -20,22 +20,22 @@ uniform int norm = 0;                        // {slide, published}: f = DFG / 4 
 uniform bool anisotropic = false;            // toggle: another roughness across the tangent
 uniform bool compensated = false;            // toggle: what one bounce loses comes back, if isotropic
 
+vec3 F_facet(float c) {
+    if (fresnel == FRESNEL_EXACT) return vec3(F_dielectric(c, eta).x);
+    if (fresnel == FRESNEL_SLIDE) return vec3(F_slide(c, eta));
+    return fresnel == FRESNEL_SCHLICK ? F_schlick(f0, c) : f0;
+}
+
 vec3 scatter(vec3 L, vec3 V) {
     vec3 H = L + V;
     float square = dot(H, H), c = min(0.5 * sqrt(square), 1.0);  // c: L.H of unit directions
     if (L.z <= 0.0 || V.z <= 0.0 || square < 1e-12) return vec3(0.0);  // 1e-12: L = -V, no half vector
     vec2 a = vec2(alpha, anisotropic ? alpha_y : alpha);
     bool beckmann = distribution == DISTRIBUTION_BECKMANN;
-    float D = beckmann ? D_beckmann(H, a) : D_ggx(H, a);
-    float G = 0.25 / V.z;  // none
-    if (shadowing == SHADOWING_IMPLICIT) G = 0.25 * L.z;
+    float D = beckmann ? D_beckmann(H, a) : D_ggx(H, a), G = shadowing == SHADOWING_NONE ? 0.25 / V.z : 0.25 * L.z;
     if (shadowing == SHADOWING_V_GROOVE) G = G_groove(L.z, V.z, H);
     if (shadowing >= SHADOWING_SMITH) G = G_smith(!beckmann, shadowing == SHADOWING_SMITH, L, V, a);
-    vec3 F = f0;
-    if (fresnel == FRESNEL_EXACT) F = vec3(F_dielectric(c, eta).x);
-    if (fresnel == FRESNEL_SCHLICK) F = F_schlick(f0, c);
-    if (fresnel == FRESNEL_SLIDE) F = vec3(F_slide(c, eta));
-    vec3 value = F * (D * G * (norm == NORM_PUBLISHED ? 4.0 : 1.0));
+    vec3 value = F_facet(c) * (D * G * (norm == NORM_PUBLISHED ? 4.0 : 1.0));
     if (compensated && !anisotropic) {  // its loss has no known fit there
         vec3 mean = fresnel == FRESNEL_SCHLICK ? F_average(f0, vec3(0.0)) : f0;
         if (fresnel == FRESNEL_EXACT || fresnel == FRESNEL_SLIDE) mean = vec3(F_average_dielectric(eta));

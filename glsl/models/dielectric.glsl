@@ -8,6 +8,10 @@
 
 uniform float eta = 1.5;  // [0.25, 4]: index of refraction below the surface over that above (unitless)
 
+vec3 F_facet(float c) {
+    return F_dielectric(c, eta).xxx;
+}
+
 vec3 scatter(vec3 L, vec3 V) {
     return vec3(0.0);
 }

@@ -20,6 +20,10 @@ vec3 base() {
     return kd * (1.0 - min(0.44 * alpha * alpha, 0.0032)) / (eta * eta * (1.0 - kd * inside));
 }
 
+vec3 F_facet(float c) {
+    return F_dielectric(c, eta).xxx;
+}
+
 vec3 scatter(vec3 L, vec3 V) {
     vec3 H = L + V;
     float square = dot(H, H);
@@ -28,9 +32,8 @@ vec3 scatter(vec3 L, vec3 V) {
     bool ggx = distribution == DISTRIBUTION_GGX;
     float D = ggx ? D_ggx(H, a) : D_beckmann(H, a);
     float G = G_smith(ggx, shadowing == SHADOWING_SMITH, L, V, a);
-    float F = F_dielectric(min(0.5 * sqrt(square), 1.0), eta).x;
     float T = F_dielectric(min(L.z, 1.0), eta).y * F_dielectric(min(V.z, 1.0), eta).y;
-    return vec3(F * D * G) + base() * (T * INV_PI * L.z);
+    return F_facet(min(0.5 * sqrt(square), 1.0)) * (D * G) + base() * (T * INV_PI * L.z);
 }
 
 float share(vec3 V) {

@@ -19,6 +19,11 @@ uniform int shadowing = 0;                     // {smith, separable}: G, height-
 uniform bool anisotropic = false;              // toggle: another roughness across the tangent
 uniform bool compensated = false;              // toggle: what one bounce loses comes back, if isotropic
 
+vec3 F_facet(float c) {
+    vec3 dip = form == FORM_F82 ? F82_dip(f0, f82) : vec3(0.0);
+    return form == FORM_EXACT ? 1.0 - A_conductor(c, eta, k) : F_f82(f0, dip, c);
+}
+
 vec3 scatter(vec3 L, vec3 V) {
     vec3 H = L + V;
     if (L.z <= 0.0 || V.z <= 0.0 || dot(H, H) < 1e-12) return vec3(0.0);  // 1e-12: L = -V, no half vector
@@ -26,13 +31,10 @@ vec3 scatter(vec3 L, vec3 V) {
     bool ggx = distribution == DISTRIBUTION_GGX;
     float D = ggx ? D_ggx(H, a) : D_beckmann(H, a);
     float G = G_smith(ggx, shadowing == SHADOWING_SMITH, L, V, a);
-    float c = min(0.5 * length(H), 1.0);  // L.H of unit directions
-    vec3 dip = form == FORM_F82 ? F82_dip(f0, f82) : vec3(0.0);
-    vec3 F = form == FORM_EXACT ? 1.0 - A_conductor(c, eta, k) : F_f82(f0, dip, c);
-    vec3 value = F * (D * G);
+    vec3 value = F_facet(min(0.5 * length(H), 1.0)) * (D * G);  // L.H of unit directions
     if (compensated && !anisotropic) {  // its loss has no known fit there
-        vec3 front = form == FORM_EXACT ? 1.0 - A_conductor(1.0, eta, k) : f0;
-        if (form == FORM_EXACT) dip = F82_dip(front, 1.0 - A_conductor(1.0 / 7.0, eta, k));
+        vec3 front = F_facet(1.0), dip = form == FORM_F82 ? F82_dip(f0, f82) : vec3(0.0);
+        if (form == FORM_EXACT) dip = F82_dip(front, F_facet(1.0 / 7.0));
         vec3 mean = clamp(F_average(front, dip), 0.0, 1.0);
         value += bounced(ggx, L.z, V.z, alpha, mean);
     }

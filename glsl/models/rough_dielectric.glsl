@@ -11,6 +11,8 @@ uniform float alpha = 0.2;     // [0.001, 1] log: roughness (unitless)
 uniform int distribution = 0;  // {ggx, beckmann}: D, the facets' slopes
 uniform int shadowing = 0;     // {smith, separable}: G of reflection, height-correlated or not
 
+vec3 F_facet(float c) { return F_dielectric(c, eta).xxx; }
+
 vec3 scatter(vec3 L, vec3 V) {
     if (L.z == 0.0 || V.z == 0.0) return vec3(0.0);
     float side = V.z < 0.0 ? -1.0 : 1.0, n = V.z < 0.0 ? 1.0 / eta : eta;

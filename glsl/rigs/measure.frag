@@ -25,6 +25,7 @@ void main() {
     rig_out = vec4(scatter(L, V), 1.0);  // where scatter
     rig_out = vec4(surround(V), 1.0);  // where surround
     rig_out = vec4(vec3(scatter_pdf(L, V)), 1.0);  // where density
+    rig_out = vec4(F_facet(V.z), 1.0);  // where facet
     vec3 way, weight = sample_scatter(V, L.xy, way);  // where sampled
     rig_out = vec4(way, 1.0);  // where sampled and not weighed
     rig_out = vec4(weight, 1.0);  // where weighed

@@ -11,10 +11,15 @@ NAMES = (  # in the order of a report
     "fresnel",
     "lobes",
     "diffuse",
+    "shading-rate",
+    "area-light",
+    "environment",
+    "spectrum",
     "precision",
+    "scale",
 )
 
 
 def load(name):
     """Return the module of a study."""
-    return import_module(f"{__name__}.{name}")
+    return import_module(f"{__name__}.{name.replace('-', '_')}")
