@@ -7,7 +7,7 @@ from imgui_bundle import imgui
 from .words import TEXT
 
 # {name: its key}, in the order of their buttons
-TOOLS = {"plots": "F3", "sheet": "F4", "editor": "F7", "film": "F8"}
+TOOLS = {"plots": "F3", "sheet": "F4", "editor": "F7", "film": "F8", "study": "F9"}
 WIDE, NARROWEST = 0.34, 18.0  # share of the window, and the least in sizes of letters
 WIDER = {"editor": 0.42}  # share for what has long lines
 
@@ -113,4 +113,8 @@ def _made(name, now):
         from .plotter import Plots
 
         return Plots(now)
+    if name == "study":
+        from .bargains import Bargains
+
+        return Bargains()
     raise ValueError(name)

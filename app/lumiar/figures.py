@@ -68,9 +68,9 @@ def _varied(group):
     """Return the parameter that differs most often between points, "" where none does."""
     seen = {}
     for point in group:
-        for name, value in point.parameters.items():
+        for name, value in (point.parameters or {}).items():
             seen.setdefault(name, set()).add(value)
-    shared = [n for n in seen if all(p.parameters.get(n, 0.0) > 0.0 for p in group)]
+    shared = [n for n in seen if all((p.parameters or {}).get(n, 0.0) > 0.0 for p in group)]
     name = max(shared, key=lambda n: len(seen[n]), default="")
     return name if name and len(seen[name]) > 1 else ""
 
