@@ -2,9 +2,10 @@
 
 from imgui_bundle import imgui
 
-from lumiar import labels, panel, sections, widgets
+from lumiar import labels, panel, rows, sections, shelf, widgets
 from lumiar.history import History
 
+PANEL = (panel, sections, rows, shelf, widgets, labels)  # what draws it
 SIZE = (1000, 3000)  # of the screen; high, so that nothing has to be scrolled
 _WIDGETS = {
     *("slider_float", "slider_int", "drag_float", "drag_int", "checkbox", "radio_button"),
@@ -55,7 +56,8 @@ class Hand:
         self.io.backend_flags |= imgui.BackendFlags_.renderer_has_textures
         self.io.display_size, self.io.delta_time = SIZE, 1.0 / 60.0
         panel.prepare()
-        self.scene, self.state, self.history = scene, panel.State(lang=lang), History(scene)
+        self.scene, self.history = scene, History(scene)
+        self.state = panel.State(lang=lang, home=scene)
         self.patch = patch
         self.frame(3)
 
@@ -63,7 +65,7 @@ class Hand:
         """Draw frames, each with the scene that the one before gave."""
         for _ in range(count):
             self.spy = Spy()
-            for module in (panel, sections, widgets, labels):
+            for module in PANEL:
                 self.patch.setattr(module, "imgui", self.spy)
             imgui.new_frame()
             self.scene = panel.draw(self.scene, self.state)
@@ -89,16 +91,16 @@ class Hand:
         self.io.add_mouse_pos_event(x, y)
         self.frame(2)
 
-    def button(self, down):
-        """Press the left button, or let it go."""
-        self.io.add_mouse_button_event(0, down)
+    def button(self, down, button=0):
+        """Press a button of the mouse, the left one, or let it go."""
+        self.io.add_mouse_button_event(button, down)
         self.frame(2)
 
-    def click(self, name, share=0.5):
+    def click(self, name, share=0.5, button=0):
         """Click on a widget."""
         self.move(*self.place(name, share))
-        self.button(True)
-        self.button(False)
+        self.button(True, button)
+        self.button(False, button)
         self.frame()
 
     def drag(self, name, by, share=0.5, steps=5):

@@ -1,10 +1,10 @@
 """The time of a scene in the real window: it runs and stops, and only then is anything drawn."""
 
 import pytest
-from hand import Spy
+from hand import PANEL, Spy
 from test_window import SIZE, plain, press, screen, settle, shown
 
-from lumiar import document, labels, panel, sections, widgets
+from lumiar import document
 from lumiar.clock import Clock
 from lumiar.desktop import glfw
 from lumiar.window import Viewer
@@ -97,7 +97,7 @@ def test_another_scene_begins_with_its_own_time(viewer):
 def test_the_button_beside_the_parameter_plays_too(viewer, monkeypatch):
     spy = Spy()
     with monkeypatch.context() as patch:
-        for module in (panel, sections, widgets, labels):
+        for module in PANEL:
             patch.setattr(module, "imgui", spy)
         viewer.due = 1
         viewer.frame()

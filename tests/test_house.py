@@ -12,7 +12,7 @@ ROOT = Path(__file__).parent.parent
 APP = ROOT / "app" / "lumiar"
 FLOORS = [  # lowest first; a module imports only from floors below its own
     "errors",
-    "files",
+    "files portuguese",
     "parameter cache supervise polygons reference_terms camera tomltext driverlog glsltext "
     "difference contract image sheet gonio captions spectrum claims arguments factors scale "
     "occluders history words notation watch phrases banner clock timing study bilingual "
@@ -25,11 +25,11 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "settings factor_card layout content variants navigate overlay uses",
     "scenefile stock hands targets facing",
     "scene editing sight charts",
-    "renderer lesson sections opening texts solids",
-    "picture options measure views report panel document estimate editor",
-    "hostile measuring falsecolour reflectance deck presenter stage film stopwatch",
+    "renderer lesson opening texts solids rows",
+    "picture options measure views report document estimate editor sections shelf",
+    "hostile measuring falsecolour reflectance deck presenter stage film stopwatch panel",
     "examine probe bench curves plotfiles",
-    "audit filming datasheet studies plotter bargains",
+    "audit filming datasheet studies plotter prober bargains",
     "drawer",
     "window",
     "verbs benching",
@@ -60,10 +60,13 @@ HOMES = {  # a heavy library and the modules that may know it
         "window",
         "datasheet",
         "plotter",
+        "prober",
         "solids",
         "charts",
         "filming",
         "bargains",
+        "rows",
+        "shelf",
     },
     "glfw": {"desktop"},
 }

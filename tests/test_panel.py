@@ -1,13 +1,14 @@
 """The panel: every widget by mouse and keyboard, and the Scene that comes of it."""
 
 import math
+import os
 import random
 
 import pytest
 from hand import Hand
 from imgui_bundle import imgui
 
-from lumiar import catalog, notation, parts, scenefile, settings, words
+from lumiar import catalog, geometry, lesson, notation, parts, scenefile, settings, words
 from lumiar.scene import Scene
 
 
@@ -225,10 +226,104 @@ def test_a_toggle_and_a_choice(hand):
 
 
 def test_reset_brings_back_the_default_and_its_button_goes(hand):
-    one = hand(Scene.default().set(shininess=77.0))
+    one = hand()
+    one.type("shininess/##value", "77")
     one.click("shininess/↺")
     assert values(one)["shininess"] == one.scene.objects[0].model.defaults()["shininess"]
     assert not one.sees("shininess/↺")
+
+
+def test_a_value_goes_back_to_its_default_or_to_what_it_was_when_opened(hand):
+    one = hand(Scene.default().set(shininess=77.0))
+    one.type("shininess/##value", "5")
+    one.io.add_key_event(imgui.Key.mod_shift, True)
+    one.click("shininess/↺")
+    one.io.add_key_event(imgui.Key.mod_shift, False)
+    assert values(one)["shininess"] == 77.0
+    one.click("shininess/↺")
+    assert values(one)["shininess"] == 40.0
+    one.click("shininess/↺")  # as it is by default, but not as it was
+    assert values(one)["shininess"] == 77.0
+
+
+def test_a_right_click_on_a_name_offers_the_ways_back_and_typing(hand):
+    one = hand(Scene.default().set(shininess=77.0))
+    one.type("shininess/##value", "5")
+
+    def menu(option):
+        left, top, _, below = one.spy.places["phong/shininess/##value"]
+        one.move(left - 60.0, (top + below) / 2.0)
+        one.button(True, 1)
+        one.button(False, 1)
+        one.frame(2)
+        one.click(option)
+
+    menu("as opened: 77##opened")
+    assert values(one)["shininess"] == 77.0
+    menu("default: 40##default")
+    assert values(one)["shininess"] == 40.0
+    menu("type a value")
+    one.io.add_input_characters_utf8("12.5")
+    one.frame(2)
+    one.key(imgui.Key.enter)
+    assert values(one)["shininess"] == 12.5
+
+
+def test_what_was_opened_with_another_model_is_no_way_back(hand):
+    one = hand(Scene.default().set(model="lambert", albedo=(0.1, 0.2, 0.3)))
+    one.choose("model", "oren_nayar")
+    assert values(one)["albedo"] == (0.1, 0.2, 0.3)
+    one.click("albedo/↺")
+    assert values(one)["albedo"] == one.scene.objects[0].model.defaults()["albedo"]
+    assert not one.sees("albedo/↺")
+
+
+def test_the_shape_of_a_mesh_has_sliders(hand):
+    one = hand(Scene.default().set(mesh="torus"))
+    one.click("Shape of the mesh###shape", 0.2)
+    for parameter in geometry.SHAPES["torus"]:
+        assert one.sees(f"shape/{parameter.name}/##value")
+    one.type("minor/##value", "0.25")
+    assert one.scene.objects[0].mesh == "torus:minor=0.25"
+    one.type("rings/##value", "3000")  # beyond the end of its slider
+    assert one.scene.objects[0].mesh == "torus:minor=0.25:rings=3000"
+    one.type("minor/##value", "-1")
+    assert "minor = -1.0 is not possible" in one.state.message
+    one.click("minor/↺")
+    assert one.scene.objects[0].mesh == "torus:rings=3000"
+    one.choose("mesh", "suzanne")
+    assert not one.sees("Shape of the mesh###shape")
+
+
+@pytest.mark.parametrize("shape", geometry.SHAPES)
+def test_a_shape_is_told_by_what_differs_and_read_back(shape):
+    spec = shape
+    for parameter in geometry.SHAPES[shape]:
+        slider = geometry.slider(shape, parameter.name)
+        assert parameter.low <= slider.low < slider.high <= parameter.high
+        value = parameter.check(min(parameter.high, parameter.default * 2 + 1))
+        spec = geometry.reshaped(spec, parameter.name, value)
+        assert geometry.shape(spec)[parameter.name] == value
+    for parameter in geometry.SHAPES[shape]:
+        spec = geometry.reshaped(spec, parameter.name, parameter.default)
+    assert spec == shape
+
+
+def test_scenes_lessons_and_files_are_opened_from_the_bar(hand):
+    one = hand()
+    one.click("Open …##open")
+    titles = [path for path in one.spy.places if path.endswith("##phong")]
+    assert titles and titles != ["##phong"]
+    assert any(p.startswith("Where the model is evaluated") for p in one.spy.places)
+    one.click(titles[0])
+    assert one.state.path == lesson.shipped()["phong"]
+    for typed, path in (("teapot", scenefile.shipped()["teapot"]), ("a/b.obj", "a/b.obj")):
+        one.click("Open …##open")
+        one.click("##path")
+        one.io.add_input_characters_utf8(typed)
+        one.frame(2)
+        one.key(imgui.Key.enter)
+        assert one.state.path == os.path.abspath(path)
 
 
 def test_reset_all_of_an_object(hand):

@@ -1,10 +1,10 @@
 """A lesson in the real window: the question before the answer, large, with its sliders alone."""
 
 import pytest
-from hand import Spy
+from hand import PANEL, Spy
 from test_window import MIDDLE, drag, plain, press, save, screen, settle, shown
 
-from lumiar import labels, lesson, panel, presenter, sections, settings, widgets
+from lumiar import lesson, presenter, settings
 from lumiar.desktop import glfw
 from lumiar.window import Viewer
 
@@ -48,7 +48,7 @@ def look(monkeypatch):
     def looked(one):
         spy = Spy()
         with monkeypatch.context() as patch:
-            for module in (panel, sections, widgets, labels, presenter):
+            for module in (*PANEL, presenter):
                 patch.setattr(module, "imgui", spy)
             one.due = 1
             one.frame()
@@ -191,3 +191,29 @@ def test_what_a_lesson_is(tmp_path, lumiar):
     said = lumiar("view", "phong", "--model", "blinn", code=2).stderr
     assert "--model: phong is a lesson" in said
     assert "two.toml:3: " in lumiar("view", "two.toml", code=2).stderr
+
+
+def test_a_step_may_offer_lists_of_lights_and_shapes(tmp_path, look):
+    """The keys of values that are chosen by their names, and those of the mesh's shape."""
+    keys = ["light", "unit", "illuminant", "image", "mesh", "mesh.minor", "temperature"]
+    path = tmp_path / "own.toml"
+    path.write_text(
+        'title = "Own"\nset = { samples = 1, mesh = "torus", light = "point" }\n'
+        f'[[step]]\ntitle = "T"\ncaption = "C"\nsliders = {keys}\n'.replace("'", '"')
+    )
+    with Viewer(lesson.load(str(path)), "en", "own", str(path), True, SIZE) as viewer:
+        settle(viewer)
+        spy = look(viewer)
+        lists = {"light": "##kind", "unit": "##unit", "illuminant": "##illuminant"}
+        lists |= {
+            "mesh": "##mesh",
+            "mesh.minor": "minor/##value",
+            "temperature": "temperature/##given",
+        }
+        for key, label in lists.items():
+            assert any(p == f"{key}/{label}" for p in spy.places), key
+        assert not any(p.startswith("image") for p in spy.places)  # a point has none
+        left, top, right, below = spy.places["mesh.minor/minor/##value"]
+        y = (top + below) / 2.0
+        drag(viewer, (left + 0.3 * (right - left), y), (right - 5, y))
+        assert viewer.scene.objects[0].mesh.startswith("torus:minor=")

@@ -395,3 +395,15 @@ def test_numbers_are_finite_wherever_they_come_from():
     for value in (math.nan, math.inf, -math.inf):
         with pytest.raises(Mistake):
             Scene.default().changed("camera.position", [value, 0.0, 0.0])
+
+
+def test_a_parameter_of_a_shape_is_changed_by_its_name():
+    scene = Scene.default().set(mesh="torus")._replace(objects=Scene.default().objects * 2)
+    scene = scene.changed("object.1.mesh", "torus:rings=9").changed("mesh.minor", "0.2")
+    assert [one.mesh for one in scene.objects] == ["torus:minor=0.2:rings=9", "sphere"]
+    assert scene.changed("mesh.minor", 0.4).objects[0].mesh == "torus:rings=9"
+    assert {"mesh.minor", "mesh.subdivision"} <= {*settings.keys(scene)}
+    with pytest.raises(Mistake, match=r"torus: minor = -1.0 is not possible; allowed: 1e-06 to"):
+        scene.changed("object.1.mesh.minor", -1.0)
+    with pytest.raises(Mistake, match=r"no value 'object.2.mesh.minor'"):
+        scene.changed("object.2.mesh.minor", 0.2)

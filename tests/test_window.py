@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from lumiar import Scene, capture, hands, layout, opening, scenefile, settings
+from lumiar import Scene, capture, hands, layout, lesson, opening, scenefile, settings
 from lumiar.desktop import glfw  # which imports imgui before it
 from lumiar.document import Document
 from lumiar.errors import Mistake
@@ -288,6 +288,16 @@ def test_files_are_dropped(viewer, tmp_path):
     before = viewer.scene
     assert drop("no.txt") is before and "no.txt" in viewer.document.fault
     assert (seen[-1] == seen[-2]).all()
+
+
+def test_what_is_chosen_in_the_bar_is_opened(viewer):
+    for name, shipped in (("teapot", scenefile.shipped()), ("phong", lesson.shipped())):
+        viewer.state.path, viewer.due = shipped[name], 1
+        settle(viewer)
+        assert viewer.document.name == name and not viewer.document.fault
+        assert viewer.presents == (name == "phong") and viewer.state.home is viewer.document.home
+    viewer.document.drop("/none/at/all.obj")
+    assert "/none/at/all.obj" in viewer.document.fault
 
 
 def test_a_saved_shader_is_read_again_and_a_broken_one_leaves_the_last_picture(tmp_path):

@@ -129,6 +129,9 @@ TEXT = {
             "estimate": " (an estimate)",
             "light": "light",
             "angles": "θᵢ, θₒ: from the normal to the light, the eye; φ: about it, between the two",
+            "click": "Click on the picture: here is what meters would read at that point.",
+            "copy": "copy as text",
+            "copied": "copied",
         },
     },
     "pt": {
@@ -259,6 +262,9 @@ TEXT = {
             "estimate": " (estimativa)",
             "light": "luz",
             "angles": "θᵢ, θₒ: da normal à luz, ao olho; φ: em torno dela, entre os dois",
+            "click": "Clique na imagem: aqui está o que medidores leriam nesse ponto.",
+            "copy": "copiar como texto",
+            "copied": "copiado",
         },
     },
 }

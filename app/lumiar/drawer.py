@@ -7,7 +7,7 @@ from imgui_bundle import imgui
 from .words import TEXT
 
 # {name: its key}, in the order of their buttons
-TOOLS = {"plots": "F3", "sheet": "F4", "editor": "F7", "film": "F8", "study": "F9"}
+TOOLS = {"plots": "F3", "sheet": "F4", "probe": "F6", "editor": "F7", "film": "F8", "study": "F9"}
 WIDE, NARROWEST = 0.34, 18.0  # share of the window, and the least in sizes of letters
 WIDER = {"editor": 0.42}  # share for what has long lines
 
@@ -113,6 +113,10 @@ def _made(name, now):
         from .plotter import Plots
 
         return Plots(now)
+    if name == "probe":
+        from .prober import Prober
+
+        return Prober(now)
     if name == "study":
         from .bargains import Bargains
 

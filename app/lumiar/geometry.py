@@ -65,6 +65,9 @@ SHAPES = {
 }
 
 
+_ENDS = {"subdivision": 7, "p": 8, "q": 8, "rings": 512, "segments": 256}  # of sliders
+
+
 class Geometry(NamedTuple):
     """A mesh as the graphics card takes it, and what is known of it.
 
@@ -142,6 +145,34 @@ def _settings(name, settings, where):
         parameter = next(p for p in SHAPES[name] if p.name == key)
         values[key] = parameter.read(text, f"{where}{name}: ")
     return values
+
+
+def shape(spec):
+    """Return {parameter: value} of a built-in shape as a scene calls it; {} of a mesh file."""
+    name, *given = spec.split(":")
+    return _settings(name, given, "") if name in SHAPES else {}
+
+
+def reshaped(spec, key, value, where=""):
+    """Return what a scene calls a built-in shape with one parameter changed; raise Mistake."""
+    name, values = spec.partition(":")[0], shape(spec)
+    own = _parameter(spec, key)
+    check = own.read if isinstance(value, str) else own.check
+    values[key] = check(value, f"{where}{name}: ")
+    changed = ((p.name, values[p.name]) for p in SHAPES[name] if values[p.name] != p.default)
+    return ":".join([name, *(f"{key}={value!r}" for key, value in changed)])
+
+
+def slider(spec, key):
+    """Return the Parameter of a built-in shape over a useful range; typed values may go on."""
+    one = _parameter(spec, key)
+    if one.type == "int":
+        return one._replace(high=min(one.high, _ENDS[key]), open=(False, True))
+    return one._replace(low=0.05 * one.default, high=4.0 * one.default, open=(True, True))
+
+
+def _parameter(spec, key):
+    return next(p for p in SHAPES[spec.partition(":")[0]] if p.name == key)
 
 
 def load(spec, folder="", crease=None, tangents=False, where=""):

@@ -9,12 +9,14 @@ BRIGHT = (1.0, 0.85, 0.5, 1.0)  # of symbols
 _SMALL = 0.72  # of the size of letters
 
 
-def row(name, words, text="", tip=None, default=None, ending=""):
+def row(name, words, text="", tip=None, ways=(), ending=""):
     """Begin a row: a symbol and a name; what is drawn next stands to their right.
 
     text: of a Parameter, which may begin with its symbol; tip: its tooltip, text or a function that
-    draws it; default: in words, of a value that is another one. Then a button that resets it stands
-    at the right end; returns whether it was pressed. ending: a unit that the value does not show.
+    draws it; ending: a unit that the value does not show. ways: (name, value in words), …, to set
+    it back, those of `words` that are named so. Then a button that takes the first one, with Shift
+    the last, stands at the right end, and a right click offers all of them, and to type a value.
+    Returns the way that was chosen, or "".
     """
     width, begin, em = (
         imgui.get_content_region_avail().x,
@@ -37,14 +39,32 @@ def row(name, words, text="", tip=None, default=None, ending=""):
     imgui.end_group()
     if tip and imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip):
         _tip(tip)
-    pressed = False
-    if default is not None:
+    chosen = _menu(words, ways) if callable(tip) else ""
+    if ways:
         imgui.same_line(begin + width - 1.5 * em)
-        pressed = imgui.button("↺", (1.5 * em, 0.0))
-        imgui.set_item_tooltip(f"{words['reset']}: {default}")
+        if imgui.button("↺", (1.5 * em, 0.0)):
+            chosen = ways[-1 if imgui.get_io().key_shift else 0][0]
+        said = [f"↺  {words[way]}: {value}" for way, value in ways]
+        imgui.set_item_tooltip("\nShift + ".join(said))
     imgui.same_line(begin + label_width(width))
     imgui.set_next_item_width(width - label_width(width) - 1.8 * em)
-    return pressed
+    if chosen == "type":
+        imgui.set_keyboard_focus_here()
+    return chosen
+
+
+def _menu(words, ways):
+    """Offer, at a right click on the name, what sets a value back, or to type one."""
+    chosen = ""
+    imgui.open_popup_on_item_click("ways", imgui.PopupFlags_.mouse_button_right)
+    if imgui.is_popup_open("ways") and imgui.begin_popup("ways"):
+        for way, value in ways:
+            if imgui.selectable(f"{words[way]}: {value}##{way}", False)[0]:
+                chosen = way
+        if imgui.selectable(words["type"], False)[0]:
+            chosen = "type"
+        imgui.end_popup()
+    return chosen
 
 
 def label_width(width):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from imgui_bundle import imgui
 
-from . import scenefile, sections
+from . import scenefile, sections, shelf
 from .files import ASSETS
 from .words import TEXT
 
@@ -20,6 +20,7 @@ class State:
     """What the panel remembers that is no part of the scene.
 
     chosen    index of the object whose model is shown
+    home      the scene as it was opened, or None
     message   the line of the last mistake, until something succeeds
     gesture   a number while a widget is held, another one for each time: a key for History
     view      (eye, target) of the picture as it is, at which values that were left out begin
@@ -27,6 +28,7 @@ class State:
     restless  whether it has to be drawn once more, until all has its size
     wake      when, by time.monotonic, it has to be drawn once more though nothing happens
     tools     the names of those that the window has, and tool the open one
+    path      of what is to be opened
     wish      what a button asks the window for: "undo", "redo", "play", or one of the tools
     able      which of undo and redo would do something
     runs      whether the time of the scene does
@@ -34,6 +36,7 @@ class State:
 
     lang: str = ""
     chosen: int = 0
+    home: object = None
     message: str = ""
     gesture: int | None = None
     view: tuple | None = None
@@ -43,6 +46,7 @@ class State:
     wake: float = math.inf
     tools: tuple = ()
     tool: str = ""
+    path: str = ""
     wish: str = ""
     able: tuple = ()
     runs: bool = False
@@ -123,6 +127,8 @@ def _bar(state, words):
         imgui.end_disabled()
         imgui.set_item_tooltip(words[name])
         imgui.same_line()
+    state.path = shelf.draw(state.lang, words) or state.path
+    imgui.same_line()
     padding, gap = 2.0 * imgui.get_style().frame_padding.x, imgui.get_style().item_spacing.x
     for name in state.tools:
         said = words["tools"][name]

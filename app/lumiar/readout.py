@@ -21,9 +21,21 @@ def as_json(found):
 
 def text(found, scene, lang):
     """Return the table of what `probe.measured` found in the scene of a name, in en or pt."""
+    parts = [_columns(rows) for rows in tables(found, scene, lang)]
+    if found["lights"]:
+        parts.append(captions.TEXT[lang]["probe"]["angles"])
+    return "\n\n".join(parts)
+
+
+def tables(found, scene, lang):
+    """Return what `text` tells as tables, rows of texts: what is seen, its quantities, the lights.
+
+    All but the first have a row that says what the columns are; without lights there are two.
+    """
     words = captions.TEXT[lang]["probe"]
     (x, y), (width, height) = found["at_px"], found["size_px"]
-    lines = [[words["at"], f"{scene}: {x}, {y} {words['of']} {width} x {height}"]]
+    where = f"{x}, {y} {words['of']} {width} x {height}"
+    lines = [[words["at"], f"{scene}: {where}" if scene else where]]
     lines.append([words["object"], _object(found["object"], words)])
     if found["object"]:
         lines.append([words["position"], f"{_list(found['position_m'])} m"])
@@ -39,12 +51,12 @@ def text(found, scene, lang):
             photometric = f"{number(found[lumens])} {other}" if lumens else ""
             row = [about, f"{number(found[watts])} {unit}".strip(), photometric]
             table.append([*row, _list(found[rgb])])
-    parts = [_columns(lines), _columns(table)]
+    parts = [lines, table]
     if found["lights"]:
         rows = [[words["light"], "L cd/m²", "%", "E lx", "%", "E W/m²", "lm/W", *_OF_DIRECTIONS]]
         rows += [_light(light) for light in found["lights"]]
-        parts += [_columns(rows), words["angles"]]
-    return "\n\n".join(parts)
+        parts.append(rows)
+    return parts
 
 
 def _plain(value):

@@ -16,8 +16,8 @@ def changed(scene, key, value, where="", folder=""):
     key    a value of the scene (`exposure`) or of its camera (`camera.fov`); `model`, `material`,
            `mesh` and the values of objects (`rotation`), for all objects; `light`, which replaces
            all lights; a parameter (`shininess`), for all objects whose model has it, else for all
-           such lights; or one of those behind the name or number of an object or light: `left.kd`,
-           `object.2.mesh`, `light.1.color`, `point.intensity`
+           such lights; `mesh.minor`, of the shapes that have it; or one of those behind the name or
+           number of an object or light: `left.kd`, `object.2.mesh`, `light.1.color`, `point.unit`
     value  as a scene file has it, or text as on the command line
     folder where relative paths begin
 
@@ -31,7 +31,7 @@ def changed(scene, key, value, where="", folder=""):
         return scene._replace(camera=scene.camera._replace(**{rest: value}))
     if key == "light":
         return scene._replace(lights=(light(str(value), where, folder),))
-    objects, lights, rest = _addressed(scene, key)
+    objects, lights, rest = addressed(scene, key)
     in_objects = [i for i in objects if _takes(scene.objects[i], rest)]
     in_lights = [i for i in lights if _lights_up(scene.lights[i], rest) and not in_objects]
     if not in_objects and not in_lights:
@@ -64,6 +64,7 @@ def keys(scene):
     """Return every key that `changed` takes for this scene, without those behind numbers."""
     names = [*SCENE, *(f"camera.{name}" for name in CAMERA), "model", "material", "mesh"]
     names += ["light", *OBJECT, *LIGHT, *LIGHT_TEXTS] if scene.lights else ["light", *OBJECT]
+    names += (f"mesh.{name}" for one in scene.objects for name in geometry.shape(one.mesh))
     for one in (*scene.objects, *scene.lights):
         names += one.values
         names += (f"{one.name}.{value}" for value in one.values if one.name)
@@ -80,13 +81,15 @@ def found(scene, key):
         return SCENE[key], getattr(scene, key), None, key
     if first == "camera" and rest in CAMERA:
         return CAMERA[rest], getattr(scene.camera, rest), None, key
-    objects, lights, rest = _addressed(scene, key)
+    objects, lights, rest = addressed(scene, key)
     for i in objects:
         one, at = scene.objects[i], f"object.{i + 1}.{rest}"
         if rest in OBJECT:
             return OBJECT[rest], getattr(one, rest), None, at
         if rest in one.values:
             return one.model.parameter(rest), one.values[rest], None, at
+        if rest in _of_shape(one):
+            return geometry.slider(one.mesh, rest[5:]), _of_shape(one)[rest], None, at
     for i in lights:
         one, at = scene.lights[i], f"light.{i + 1}.{rest}"
         if rest in LIGHT:
@@ -229,7 +232,7 @@ def light_parts(spec):
     return [path + ending, *rest.split(":")[1:]] if ending else spec.split(":")
 
 
-def _addressed(scene, key):
+def addressed(scene, key):
     """Return (indices of objects, indices of lights, rest of the key) that a key may speak of."""
     first, _, rest = key.partition(".")
     number, _, last = rest.partition(".")
@@ -240,6 +243,8 @@ def _addressed(scene, key):
     objects, lights = range(len(scene.objects)), range(len(scene.lights))
     if not rest:
         return objects, lights, key
+    if first == "mesh":
+        return objects, [], key
     named = [i for i in objects if scene.objects[i].name == first]
     lamps = [i for i in lights if first in (scene.lights[i].name, scene.lights[i].kind.name)]
     return named, lamps, rest
@@ -250,12 +255,19 @@ def _lights_up(one, key):
 
 
 def _takes(one, key):
-    return key in ("mesh", "model", "material") or key in OBJECT or key in one.values
+    return key in ("mesh", "model", "material", *OBJECT, *one.values, *_of_shape(one))
+
+
+def _of_shape(one):
+    """Return {"mesh.minor": value, …} of the shape of an object, {} where its mesh is a file."""
+    return {f"mesh.{name}": value for name, value in geometry.shape(one.mesh).items()}
 
 
 def _object_with(one, key, value, where, folder):
     if key == "mesh":
         return one._replace(mesh=geometry.canonical(str(value), folder, where))
+    if key.startswith("mesh."):
+        return one._replace(mesh=geometry.reshaped(one.mesh, key[5:], value, where))
     if key == "model":
         return _with_model(one, catalog.read("model", str(value), where, folder))
     if key == "material":

@@ -15,18 +15,19 @@ _POLE = 89.99  # degrees that a ball can be turned up: straight up has no azimut
 _STEPS = 250.0  # pixels over which a dragged number crosses its range
 
 
-def edit(one, value, words, note="", start=None, clock=None):
+def edit(one, value, words, note="", start=None, clock=None, opened=()):
     """Draw the row of a Parameter and return its value, another one if it was changed.
 
     start: what a value that was left out (None) begins with; clock: what draws the value of one
-    that is the time of the scene.
+    that is the time of the scene; opened: (the value that the scene was opened with,), or nothing.
     """
     imgui.push_id(one.name)
-    marked = _default(one, words) if value != one.default and one.widget != "time" else None
     several = SIZES[one.type] > 1 and one.widget == "slider"
     ending = _unit(one, words) if several else ""
-    if labels.row(one.name, words, one.text, lambda: _about(one, words, note), marked, ending):
-        value = one.default
+    ways, about = _ways(one, value, words, opened), lambda: _about(one, words, note)
+    way = labels.row(one.name, words, one.text, about, ways, ending)
+    if way in ("default", "opened"):
+        value = one.default if way == "default" else opened[0]
     elif one.default is None:
         value = _optional(one, value, words, start)
     elif one.widget == "time":
@@ -188,8 +189,18 @@ def _clean(new, old, lost=1e-7):
     return old if same else float(f"{new:.7g}")
 
 
-def _default(one, words):
-    return _left_out(one, words) if one.default is None else shown(one.default)
+def _ways(one, value, words, opened):
+    """Return the ways to set a value back that would change it, as `labels.row` takes them."""
+    if one.widget == "time":
+        return ()
+    back = [("default", one.default), *(("opened", before) for before in opened[:1])]
+    if len(back) > 1 and back[1][1] == one.default:
+        back.pop()
+    return [(way, _said(one, words, before)) for way, before in back if before != value]
+
+
+def _said(one, words, value):
+    return _left_out(one, words) if value is None else shown(value)
 
 
 def _unit(one, words):
@@ -208,7 +219,7 @@ def _about(one, words, note):
     imgui.text(words["texts"].get(one.text, one.text))
     if domain(one):
         imgui.text_colored(labels.DIM, f"{words['allowed']}: {domain(one)}")
-    imgui.text_colored(labels.DIM, f"{words['default']}: {_default(one, words)}")
+    imgui.text_colored(labels.DIM, f"{words['default']}: {_said(one, words, one.default)}")
     if not one.constant:
         imgui.text_colored(labels.DIM, words["typed"])
     if note:

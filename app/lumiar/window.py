@@ -110,6 +110,7 @@ class Viewer:
         self.state.restless, self.state.wake = False, math.inf
         if self.with_panel:
             self.state.view, self.state.tool = self.stage.view, self.drawer.open
+            self.state.home = self.document.home
             self.state.able, self.state.runs = self.document.history.able, self.document.clock.runs
             parts = self.presenter.parts(self.document.stop) if self.presents else panel.ALL
             self._push(panel.draw(self.scene, self.state, parts), self.state.gesture)
@@ -121,6 +122,7 @@ class Viewer:
         self._say_over(left, size, now)
         imgui.render()
         screen = desktop.context.screen
+        screen.clear()  # else what was there shines through the panels
         self.overlay.picture(self.stage.canvas.color_attachments[0], screen, left)
         self.overlay.widgets(imgui.get_draw_data(), screen, desktop.size)
         desktop.show()
@@ -158,6 +160,9 @@ class Viewer:
     def _wish(self):
         """Do what a button of the panel asks for."""
         wish, self.state.wish = self.state.wish, ""
+        if self.state.path:
+            self._on_drop([self.state.path])
+            self.state.path, self.due = "", FRAMES
         if wish:
             self.drawer.toggle(wish) if wish in TOOLS else getattr(self.document, wish)()
             self.due = FRAMES
