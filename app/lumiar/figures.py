@@ -45,8 +45,8 @@ def figure(one, group, styles, advised):
         levels = [(metric[key], word(key), key == "floor") for key in ("visible", "floor")]
         joined = [[marks[p.variant] for p in line if p.variant in marks] for line in lines.values()]
         along, levels = ("x", levels) if priced else ("y", ())
-        parts.append(chart.svg([*marks.values()], titles, along, levels, joined))
-        parts.append(_keys(one, group, lines, styles))
+        plot, named = chart.svg([*marks.values()], titles, along, levels, joined)
+        parts += [plot] if named else [plot, _keys(one, group, lines, styles)]
     return "".join(parts) + _values(one, group, styles) + "</figure>"
 
 
@@ -108,7 +108,8 @@ def _alike(a, b):
 
 
 def _key(style, full=True):
-    return f'<svg class="key" viewBox="-7 -7 14 14">{chart.glyph(style, 0.0, 0.0, full)}</svg>'
+    look = chart.looks(style, full)
+    return f'<svg class="key {look}" viewBox="-7 -7 14 14">{chart.glyph(style)}</svg>'
 
 
 def alone(one, points, styles):
@@ -140,7 +141,7 @@ def _row(name, point, styles):
     numbers = ["" if point.error is None else number(point.error)]
     numbers += [f"{number(point.cost)} {point.unit}"]
     numbers += [f"{number(point.low)} … {number(point.high)}"]
-    cells = "".join(f'<td class="n">{text}</td>' for text in numbers)
+    cells = "".join(f"<td>{text}</td>" for text in numbers)
     best = ' class="best"' if point.pareto else ""
     return f'<tr{best}><th scope="row">{mark}{name}</th>{cells}</tr>'
 
