@@ -172,7 +172,8 @@ def _level(height, texts, shaded, taken):
 
     taken: the boxes of what is there, to which its own is added.
     """
-    base, right = height + (SIZE + 1.0 if shaded else -4.0), WIDTH - RIGHT
+    under = shaded and height + SIZE + 4.0 < HEIGHT - BOTTOM
+    base, right = height + (SIZE + 1.0 if under else -4.0), WIDTH - RIGHT
     wide = WIDE * SIZE * max(map(len, texts.values()))
     boxes = {"end": (right - wide, right), "start": (LEFT + 4.0, LEFT + 4.0 + wide)}
     boxes = {side: (a, base - SIZE, b, base + 3.0) for side, (a, b) in boxes.items()}
@@ -225,7 +226,7 @@ def _labels(marks, places, taken, lang):
             continue
         (px, py), wide = places[i], WIDE * SIZE * len(text) * (1.1 if marks[i].best else 1.0)
         spots = [(px + 10, py + 5), (px - 10 - wide, py + 5)]
-        for up in (-10.0, 20.0) if len(text) < 6 else (-10.0, 20.0, -25.0, 35.0):
+        for up in (-10.0, 20.0) if text[0].isdigit() else (-10.0, 20.0, -25.0, 35.0):
             spots += [(px - wide / 2 + k * wide / 2, py + up) for k in (0.0, 0.8, -0.8)]
         for left, base in spots:
             box = (left - 2, base - SIZE + 1, left + wide + 2, base + 4)

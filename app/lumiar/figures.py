@@ -28,7 +28,7 @@ def figure(one, group, styles, advised):
     marks = {}
     for point in drawn if priced or scaled else ():
         names, (kind, count) = name_of(one, point.variant), series(point.variant)
-        short = dict.fromkeys(TEXT, count if priced else "") if kind in lines else names
+        short = dict.fromkeys(TEXT, _spaced(count) if priced else "") if kind in lines else names
         x, y = (point.cost, point.error) if priced else (point.parameters[scaled], point.cost)
         interval, style, tip = (point.low, point.high), styles[kind], _tip(point, names)
         marks[point.variant] = Mark(x, y, interval, style, short, tip, point.pareto, point.default)
@@ -48,6 +48,11 @@ def figure(one, group, styles, advised):
         plot, named = chart.svg([*marks.values()], titles, along, levels, joined)
         parts += [plot] if named else [plot, _keys(one, group, lines, styles)]
     return "".join(parts) + _values(one, group, styles) + "</figure>"
+
+
+def _spaced(count):
+    """Return a number's digits with a little room between thousands, from five digits on."""
+    return f"{int(count):,}".replace(",", "\u202f") if count and len(count) > 4 else count
 
 
 def _lines(group):
