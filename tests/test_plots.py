@@ -2,6 +2,7 @@
 
 import csv as csvs
 import math
+import time
 
 import numpy as np
 import pytest
@@ -66,6 +67,10 @@ def point(one, x=0.6, y=0.4):
     pixel = int(x * width), int(y * height)
     one.desktop.move(left + pixel[0], pixel[1])
     settle(one)
+    while one.state.wake < math.inf:  # looks are not taken faster than the machine bears
+        time.sleep(max(0.0, one.state.wake - time.monotonic()))
+        one.frame()
+        settle(one)
     return pixel
 
 
