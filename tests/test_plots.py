@@ -194,6 +194,9 @@ def test_every_plot_is_drawn_read_at_the_mouse_and_written(viewer, monkeypatch, 
     press_on(viewer, monkeypatch, "save CSV")
     if kind in ("polar", "fresnel"):  # which take a second each
         press_on(viewer, monkeypatch, "save PNG")
+        while tool(viewer).painting:
+            time.sleep(0.05)
+            viewer.frame()
         with Image.open("lumiar-plot-001.png") as picture:
             assert len(np.unique(np.asarray(picture.convert("L")))) > 20
     drawn = tool(viewer).drawn
