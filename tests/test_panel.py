@@ -368,6 +368,34 @@ def test_lights_are_added_changed_and_removed(hand):
     assert [light.kind.name for light in one.scene.lights] == ["directional", "ambient"]
 
 
+def test_open_lights_out_of_sight_wait_for_being_scrolled_to(hand):
+    one = hand(lit(*["point"] * 6))
+    for i in range(1, 6):
+        one.click(f"{i + 1}  point###{i}", 0.2)
+    ends = [place[3] for place in one.spy.places.values()]
+    assert all(one.sees(f"{i}/intensity/##value") for i in range(6))
+    one.io.display_size = (1000, 500)
+    one.frame(3)
+    assert not any(one.sees(f"{i}/intensity/##value") for i in (4, 5))
+    below = one.place("##add")[1]
+    one.move(300.0, 300.0)
+    while not one.sees("4/intensity/##value") or one.place("4/intensity/##value")[1] > 300.0:
+        one.io.add_mouse_wheel_event(0.0, -1.0)
+        one.frame(2)
+        assert one.sees("##add") and max(ends) > below > 500.0  # the blanks are as high as the rows
+    one.type("4/intensity/##value", "7")
+    assert [light.values["intensity"] for light in one.scene.lights] == [60.0] * 4 + [7.0, 60.0]
+    x, y = one.place("4/intensity/##value")
+    one.move(x, y)
+    one.button(True)
+    for _ in range(40):  # held, though scrolled away
+        one.io.add_mouse_wheel_event(0.0, 5.0)
+        one.frame()
+    one.move(x + 40.0, y)
+    one.button(False)
+    assert one.scene.lights[4].values["intensity"] > 7.0
+
+
 @pytest.mark.parametrize("kind", catalog.names("light"))
 def test_a_light_shows_the_own_keys_that_its_kind_has_and_no_others(hand, kind):
     one = hand(lit(kind))

@@ -94,9 +94,27 @@ def about(shader):
     return "\n".join(header[key] for key in keys if header.get(key))
 
 
-def lamp_text(scene, state, words, i, key):
-    """Draw the list for the unit, the illuminant or the image of a light that has one."""
-    one, own = scene.lights[i], settings.own_keys(scene.lights[i].kind)
+def block(name, draw):
+    """Return what `draw()` returns; None, and a blank of its height, where it would be unseen.
+
+    ImGui itself keeps how high it was, and whether something in it is held: that is always drawn.
+    """
+    kept, key, held = imgui.get_state_storage(), imgui.get_id(name), imgui.get_id(f"{name} held")
+    high, top = kept.get_float(key, 0.0), imgui.get_cursor_pos_y()
+    if high and not kept.get_bool(held, False) and not imgui.is_rect_visible((1.0, high)):
+        imgui.dummy((1.0, high - imgui.get_style().item_spacing.y))
+        return None
+    imgui.begin_group()
+    got = draw()
+    imgui.end_group()
+    kept.set_float(key, imgui.get_cursor_pos_y() - top)
+    kept.set_bool(held, imgui.is_item_active())
+    return got
+
+
+def lamp_text(scene, state, words, i, key, own):
+    """Draw the list for the unit, the illuminant or the image of a light, one of its own keys."""
+    one = scene.lights[i]
     if not own.get(key):  # empty where a file has a unit of its own invention
         return scene
     if key == "unit":

@@ -94,8 +94,9 @@ def _one(scene, state, words, key):
         return _kind(scene, state, words, 0) if scene.lights else scene
     objects, lamps, name = settings.addressed(scene, key)
     if name in LIGHT_TEXTS:
-        with_it = [i for i in lamps if settings.own_keys(scene.lights[i].kind).get(name)]
-        return rows.lamp_text(scene, state, words, with_it[0], name) if with_it else scene
+        own = ((i, settings.own_keys(scene.lights[i].kind)) for i in lamps)
+        i, own = next(((i, keys) for i, keys in own if keys.get(name)), (0, {}))
+        return rows.lamp_text(scene, state, words, i, name, own) if own else scene
     lists = {"mesh": _meshes, "model": _models, "material": lambda: _materials(state.lang)}
     if name in lists and objects:
         now = scene.objects[objects[0]]
@@ -113,11 +114,9 @@ def lights(scene, state, words):
     for i, one in enumerate(scene.lights):
         flags = imgui.TreeNodeFlags_.default_open if i == 0 else 0
         if imgui.tree_node_ex(f"{rows.named(i, one.name or one.kind.name)}###{i}", flags):
-            scene = _light(scene, state, words, i)
-            if imgui.small_button(words["reset all"]):
-                scene = editing.reset(scene, "light", i)
-            imgui.same_line()
-            gone = i if imgui.small_button(words["remove"]) else gone
+            draw = functools.partial(_light, scene, state, words, i)
+            changed, removed = rows.block("light", draw) or (scene, False)
+            scene, gone = changed, i if removed else gone
             imgui.tree_pop()
     imgui.set_next_item_width(-1.0)
     got = labels.choice("add", words["add"], _kinds, words["light hint"])
@@ -127,6 +126,15 @@ def lights(scene, state, words):
 
 
 def _light(scene, state, words, i):
+    """Draw all that one light can be given; return the scene, and whether it is to go."""
+    scene = _lamp(scene, state, words, i)
+    if imgui.small_button(words["reset all"]):
+        scene = editing.reset(scene, "light", i)
+    imgui.same_line()
+    return scene, imgui.small_button(words["remove"])
+
+
+def _lamp(scene, state, words, i):
     one, key = scene.lights[i], f"light.{i + 1}"
     scene = _kind(scene, state, words, i)
     if scene.lights[i] is not one:
@@ -135,7 +143,7 @@ def _light(scene, state, words, i):
     parameters = [editing.in_unit(one) if p.tinted else p for p in one.kind.parameters]
     scene = rows.of_shader(scene, state, words, key, one.kind, parameters, one.values)
     for name in LIGHT_TEXTS:
-        scene = rows.lamp_text(scene, state, words, i, name)
+        scene = rows.lamp_text(scene, state, words, i, name, own)
     one = scene.lights[i]
     rest = [parameter for name, parameter in LIGHT.items() if name in own]
     return rows.several(scene, state, words, f"{key}.", rest, one._asdict())
