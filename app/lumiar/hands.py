@@ -8,19 +8,28 @@ LEFT, SHIFT, ALT = 0, 1, 4  # as glfw numbers buttons and modifier keys
 
 
 class Hands:
-    """What the mouse is doing to a scene; every method returns the Scene, and a key for History."""
+    """What the mouse is doing to the picture that it began on.
+
+    What it does is a function of (Scene, that scene as drawn, its (eye, target)) that returns the
+    Scene, the same where nothing could be drawn; with it comes a key for History. None, None where
+    it does nothing.
+    """
 
     def __init__(self):
-        self._doing, self._drags, self._place = None, 0, (0.0, 0.0)
+        self._doing, self._drags, self._place, self._height = None, 0, (0.0, 0.0), 1
 
     @property
     def holds(self):
         """Whether the picture is being dragged."""
         return self._doing is not None
 
-    def press(self, button, held):
-        """Begin to drag: left turns, with Alt moves the light; the rest moves the view."""
+    def press(self, button, held, height):
+        """Begin to drag: left turns, with Alt moves the light; the rest moves the view.
+
+        height: of the picture, in pixels.
+        """
         self._drags += 1
+        self._height = max(1, height)
         if button != LEFT or held & SHIFT:
             self._doing = "pan"
         else:
@@ -30,24 +39,33 @@ class Hands:
         """End what was begun."""
         self._doing = None
 
-    def move(self, scene, shown, view, place):
-        """Take a place of the mouse in pixels.
-
-        shown: the scene as drawn, whose size and angle of view count; view: its (eye, target).
-        """
+    def move(self, place):
+        """Take a place of the mouse in pixels; return what it does, and a key."""
         (x, y), self._place = self._place, place
-        if not self._doing or shown is None:
-            return scene, None
-        dx, dy = (place[0] - x) / shown.size[1], (place[1] - y) / shown.size[1]
-        key = (self._doing, self._drags)
-        if self._doing == "light":
-            return _swung(scene, view, dx, dy), key
+        if not self._doing:
+            return None, None
+        dx, dy = (place[0] - x) / self._height, (place[1] - y) / self._height
         turn = navigate.orbit if self._doing == "orbit" else navigate.pan
-        return _with_camera(scene, turn(shown.camera, *view, dx, dy)), key
 
-    def wheel(self, scene, shown, view, notches):
-        """Take a turn of the wheel."""
-        return _with_camera(scene, navigate.zoom(shown.camera, *view, notches)), "wheel"
+        def turned(scene, shown, view):
+            if shown is None:
+                return scene
+            return _with_camera(scene, turn(shown.camera, *view, dx, dy))
+
+        def swung(scene, shown, view):
+            return scene if shown is None else _swung(scene, view, dx, dy)
+
+        return swung if self._doing == "light" else turned, (self._doing, self._drags)
+
+    def wheel(self, notches):
+        """Take a turn of the wheel; return what it does, and a key."""
+
+        def zoomed(scene, shown, view):
+            if shown is None:
+                return scene
+            return _with_camera(scene, navigate.zoom(shown.camera, *view, notches))
+
+        return zoomed, "wheel"
 
 
 def framed(scene, size):
