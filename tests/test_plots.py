@@ -20,6 +20,7 @@ from lumiar import (
     plotfiles,
     plotter,
     probe,
+    readout,
     reference,
     reference_terms,
     tables,
@@ -95,7 +96,7 @@ def expected(one, L, V):
 
 
 @pytest.mark.parametrize("model", ["lambert", "phong", "cook_torrance"])
-def test_a_curve_is_the_model_at_the_directions_that_are_marked(viewer, model):
+def test_a_curve_is_the_model_at_the_directions_that_are_marked(viewer, model, monkeypatch):
     with_model(viewer, model)
     pixel = click(viewer)
     drawn = tool(viewer).drawn
@@ -107,6 +108,8 @@ def test_a_curve_is_the_model_at_the_directions_that_are_marked(viewer, model):
     assert facing.turn(L, V) == pytest.approx(light["azimuth_deg"], abs=1e-9)
     value = tool(viewer).value(drawn.models[0])
     assert value == pytest.approx(light["f_rgb_1_sr"]) == expected(viewer, L, V)[0]
+    shown = f"f(L, V) = {readout.number(light['f_1_sr'])} sr⁻¹"
+    assert shown in spied(viewer, monkeypatch).said  # as the probe says it
     (curve,) = drawn.shown
     angle, off = drawn.aim.angle(V)
     assert abs(angle) == facing.theta(V) and off == pytest.approx(0.0, abs=1e-4)

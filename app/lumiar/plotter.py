@@ -14,6 +14,7 @@ from . import (
     plotfiles,
     readout,
     solids,
+    units,
 )
 from .difference import LUMINANCE
 from .errors import Mistake, one_line
@@ -163,7 +164,7 @@ class Plots:
             _lines(words["at"].format(*sight.pixel, *angles))
             f, off = self.value(models[0]), abs(self.drawn.aim.angle(L)[1])
             if f is not None:
-                _large(f"f(L, V) = {readout.number(float(f @ LUMINANCE))} sr⁻¹")
+                _large(f"f(L, V) = {readout.number(units.luminance(f) / units.EFFICACY)} sr⁻¹")
             if L[2] < 0.0 and not models[0].shader.transmits:
                 _lines(words["below"], labels.DIM)
             elif self.kind in ("polar", "curve") and off >= 1.0:
