@@ -23,7 +23,7 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "figures",
     "geometry compose parts materials hemisphere surroundings page",
     "settings factor_card layout content variants navigate overlay",
-    "scenefile stock hands targets facing",
+    "scenefile stock hands handles targets facing",
     "scene editing sight charts",
     "renderer lesson opening texts solids rows",
     "picture options measure views report document estimate editor sections shelf",
@@ -66,6 +66,7 @@ HOMES = {  # a heavy library and the modules that may know it
         "filming",
         "rows",
         "shelf",
+        "handles",
     },
     "glfw": {"desktop"},
 }

@@ -11,17 +11,23 @@ class Hands:
     """What the mouse is doing to a scene; every method returns the Scene, and a key for History."""
 
     def __init__(self):
-        self._doing, self._drags, self._place = None, 0, (0.0, 0.0)
+        self._doing, self._drags, self._place, self._lamp = None, 0, (0.0, 0.0), 0
 
     @property
     def holds(self):
         """Whether the picture is being dragged."""
         return self._doing is not None
 
-    def press(self, button, held):
-        """Begin to drag: left turns, with Alt moves the light; the rest moves the view."""
+    def press(self, button, held, lamp=0, grabbed=False):
+        """Begin to drag: left turns, with Alt moves the light; the rest moves the view.
+
+        lamp: index of the light; grabbed: whether it is held where it stands in the picture.
+        """
         self._drags += 1
-        if button != LEFT or held & SHIFT:
+        self._lamp = lamp
+        if button == LEFT and grabbed:
+            self._doing = "carry"
+        elif button != LEFT or held & SHIFT:
             self._doing = "pan"
         else:
             self._doing = "light" if held & ALT else "orbit"
@@ -40,10 +46,22 @@ class Hands:
             return scene, None
         dx, dy = (place[0] - x) / shown.size[1], (place[1] - y) / shown.size[1]
         key = (self._doing, self._drags)
-        if self._doing == "light":
-            return _swung(scene, view, dx, dy), key
+        if self._doing in ("light", "carry"):
+            return self._with_light(scene, (shown.camera, *view, dx, dy)), key
         turn = navigate.orbit if self._doing == "orbit" else navigate.pan
         return _with_camera(scene, turn(shown.camera, *view, dx, dy)), key
+
+    def _with_light(self, scene, how):
+        """Return the scene with its light moved, or, where that cannot be, the first that can."""
+        for i in sorted(range(len(scene.lights)), key=lambda i: i != self._lamp):
+            light = scene.lights[i]
+            swings = navigate.movable(light) and self._doing == "light"
+            if swings or navigate.standing(light):
+                moved = (navigate.swing if swings else navigate.carry)(light, *how)
+                for name, value in moved.items():
+                    light = settings.light_with(light, name, value)
+                return scene._replace(lights=(*scene.lights[:i], light, *scene.lights[i + 1 :]))
+        return scene
 
     def wheel(self, scene, shown, view, notches):
         """Take a turn of the wheel."""
@@ -64,14 +82,3 @@ def framed(scene, size):
 
 def _with_camera(scene, camera):
     return scene._replace(camera=camera._replace(fov=scene.camera.fov))
-
-
-def _swung(scene, view, dx, dy):
-    """Return the scene with the first light that has a place moved."""
-    for i, light in enumerate(scene.lights):
-        if navigate.movable(light):
-            moved = navigate.swing(light, scene.camera, *view, dx, dy)
-            for name, value in moved.items():
-                light = settings.light_with(light, name, value)
-            return scene._replace(lights=(*scene.lights[:i], light, *scene.lights[i + 1 :]))
-    return scene
