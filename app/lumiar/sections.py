@@ -121,7 +121,8 @@ def lights(scene, state, words):
             changed, removed = rows.block("light", draw) or (scene, False)
             scene, gone = changed, i if removed else gone
             imgui.tree_pop()
-        touched = imgui.is_mouse_clicked(0) and imgui.is_window_hovered()
+        held = imgui.HoveredFlags_.allow_when_blocked_by_active_item
+        touched = imgui.is_mouse_clicked(0) and imgui.is_window_hovered(held)
         if touched and top <= imgui.get_mouse_pos().y < imgui.get_cursor_screen_pos().y:
             state.lamp = i
     imgui.set_next_item_width(-1.0)
