@@ -54,6 +54,15 @@ def test_time_of_several_cores_is_what_passes_undisturbed():
             assert one.cost == pytest.approx(other.cost, rel=0.05, abs=1e-4)
 
 
+def test_where_rounds_were_never_at_rest_the_interval_says_so():
+    """Two jobs that work alike, of which one once got both cores: they are not ranked."""
+    rounds = [[(2.0, 2.0), (2.0, 2.0)] for _ in range(20)]
+    rounds[3][1] = 2.0, 1.0
+    one, lucky = timing.settled(rounds)
+    assert lucky.cost == pytest.approx(1.0) and one.cost == pytest.approx(2.0)
+    assert lucky.high >= one.low and 0.0 < lucky.low < lucky.cost
+
+
 def test_jobs_take_turns_in_an_order_that_moves_on():
     order, jobs = [], [lambda name=name: order.append(name) for name in "abc"]
 

@@ -12,7 +12,7 @@ import numpy as np
 from . import compose, layout
 from .card import OnCard, compiled
 
-TIMED = 256  # the most directions that are timed
+TIMED = 64  # the most directions that are timed
 STEPS = 16  # directions that a pixel adds up, at least, while timed: a run of a few milliseconds
 
 

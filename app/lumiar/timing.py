@@ -92,7 +92,11 @@ def _settled(times, empty, cores):
     """Return the Timings, and whether no interval is wider than the drift between runs."""
     spent, passed = np.moveaxis(np.maximum(np.asarray(times, np.float64), 1e-12), 2, 0)
     # how much of the time spent has to pass, where nothing disturbs: 1, or less on several cores
-    spent = spent * (1.0 / cores if cores else (passed / spent).min(axis=0))
+    shares = passed / spent
+    share = np.full(spent.shape[1], 1.0 / cores) if cores else shares.min(axis=0)
+    # where few rounds come near that, none may have been undisturbed
+    doubt = np.ones_like(share) if cores else np.quantile(shares, 0.25, axis=0) / share
+    spent = spent * share
     logs = np.log(spent)
     slow = np.median(logs - np.median(logs, axis=0), axis=1)  # each round, against the usual
     steady = spent / np.exp(slow)[:, None]
@@ -104,6 +108,8 @@ def _settled(times, empty, cores):
     found, clear = [], True
     for i, values in enumerate(np.sort(net, axis=0).T):
         cost, (low, high) = float(np.median(values)), _interval(values)
+        low -= float(whole[i] * (1.0 - 1.0 / doubt[i]))
+        high += float(whole[i] * (doubt[i] - 1.0))
         margin = max(DRIFT * abs(cost), FLOOR * float(whole[i]))
         clear = clear and max(high - cost, cost - low) <= margin
         off = 0.0 if empty in (None, i) else float(whole[empty])

@@ -7,6 +7,7 @@ import numpy as np
 from .. import catalog, factors, study
 from ..estimate import Estimator, Way, costs
 from ..files import GLSL
+from ..notation import number
 from ..parts import Light, Object
 from ..study import RELATIVE, Remark, Shown
 
@@ -18,15 +19,19 @@ SECONDS = (60.0, 6.0)
 ERROR = "rms"
 METRICS = {ERROR: RELATIVE}
 SIZES = {False: (0.1, 1.0, 10.0), True: (1.0,)}  # of the lamp, over its height
-COUNTS = {False: (1, 4, 16, 64, 256, 1024, 4096), True: (1, 16, 64)}
+COUNTS = {False: (1, 4, 16, 64, 256, 1024, 4096), True: (1, 4, 64)}
 PLACES, SEEDS, ROWS = 128, 16, 64  # of the floor; random numbers for each; rows while timed
-PICTURE, SHOWN = 64, 16  # pixels a side; samples
+PICTURE, SHOWN = 96, 4  # pixels a side; samples
 EXACT, EDGES = "closed", "edges"
 KINDS = ("area", "angle")
 POINTS = {
     "random": ("random", "aleatórios"),
     "stratified": ("stratified", "estratificados"),
     "spread": ("low-discrepancy", "de baixa discrepância"),
+}
+WHAT = {
+    "area": {"en": "points of its area", "pt": "pontos da área"},
+    "angle": {"en": "directions to it", "pt": "pontos do ângulo sólido"},
 }
 WORDS = {
     ERROR: {
@@ -38,14 +43,14 @@ WORDS = {
     **{
         f"size {s:g}": {
             "en": f"a lamp {s:g} m wide, 1 m above the floor",
-            "pt": f"lâmpada de {s:g} m de largura, 1 m acima do chão",
+            "pt": f"lâmpada de {number(s, lang='pt')} m de largura, 1 m acima do chão",
         }
         for s in SIZES[False]
     },
     **{
         f"{kind} {points} {n}": {
-            "en": f"{n} {en} {'points of its area' if kind == 'area' else 'directions to it'}",
-            "pt": f"{n} {'pontos da área' if kind == 'area' else 'pontos do ângulo sólido'} {pt}",
+            "en": f"{WHAT[kind]['en']}, {en}: {n}",
+            "pt": f"{WHAT[kind]['pt']}, {pt}: {n}",
         }
         for kind in KINDS
         for points, (en, pt) in POINTS.items()
@@ -57,12 +62,8 @@ FALLS = {
     "pt": "{case}: com N {what} o erro cai como {powers}.",
 }
 PRICE = {
-    "en": "{case}: to err by less than 1 % takes {names}, {ratio} times the closed form's time.",
-    "pt": "{case}: errar menos de 1 % pede {names}, {ratio} vezes o tempo da forma fechada.",
-}
-WHAT = {
-    "area": {"en": "points of its area", "pt": "pontos da área"},
-    "angle": {"en": "directions to it", "pt": "pontos do ângulo sólido"},
+    "en": "{case}: less than 1 % of error takes {names}; about {ratio} times the closed form.",
+    "pt": "{case}: menos de 1 % de erro pede {names}; cerca de {ratio} vezes a forma fechada.",
 }
 
 
@@ -138,7 +139,8 @@ def run(bench):
                 found += study.points(case, variant, {ERROR: error}, *more)
                 if size == 1.0 and (way.drawn == "exact" or way.samples == SHOWN):
                     pixels = estimator.radiance(shown, matt, light, eye, way)
-                    yield Shown(case, variant, pixels, np.abs(pixels[..., 0] / seen - 1.0))
+                    off = np.abs(pixels[..., 0] / seen - 1.0)
+                    yield Shown(case, variant, pixels / seen.max(), off)
             yield from found
             yield from remarks(found)
 
@@ -154,7 +156,7 @@ def remarks(found):
             ratio = last.parameters["samples"] / first.parameters["samples"]
             power = np.log(last.error / first.error) / np.log(ratio)
             for lang, name in zip(powers, names, strict=True):
-                powers[lang].append(f"N^{power:.1f} ({name})")
+                powers[lang].append(f"N^{number(power, 2 - (power > -1.0), lang)} ({name})")
         yield _said(
             FALLS, case, what=WHAT[kind], powers={k: ", ".join(v) for k, v in powers.items()}
         )
@@ -162,8 +164,8 @@ def remarks(found):
     enough = [p for p in found if p.error < METRICS[ERROR].visible and p.parameters["samples"] > 0]
     least = min(enough, key=lambda p: p.cost, default=None)
     if least and study.cheaper(exact, least):
-        ratio = f"{float(f'{least.cost / exact.cost:.1g}'):g}"
-        yield _said(PRICE, case, names=WORDS[least.variant], ratio=dict.fromkeys(PRICE, ratio))
+        ratio = {lang: number(least.cost / exact.cost, 1, lang) for lang in PRICE}
+        yield _said(PRICE, case, names=WORDS[least.variant], ratio=ratio)
 
 
 def _said(words, case, **facts):

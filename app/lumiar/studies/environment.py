@@ -4,6 +4,7 @@ import numpy as np
 
 from .. import catalog, measure, reference, study, surroundings
 from ..estimate import Estimator, Way, costs
+from ..notation import number
 from ..parts import Light, Object
 from ..study import Metric, Remark, Shown
 
@@ -39,15 +40,16 @@ TOLD = 64  # directions that ways are held against each other with
 PLACES, SEEDS, ROWS = 64, 32, 128  # of the sphere; random numbers for each; rows while timed
 FAR = 0.9  # share of the visible disk's radius: beyond, sums would need finer nodes
 EYE = (0.0, 0.0, 4.0)
-PICTURE, SHOWN, CONVERGED = 64, 16, 1024  # pixels a side; directions; of what errors are shown from
+PICTURE, SHOWN, CONVERGED = 72, 16, 1024  # pixels a side; directions; for what is held right
+WHITE = 2.0  # mean radiances that are shown as white
 GOLDEN = 2.399963229728653  # radians
 NAMES = {
     "furnace": ("furnace", "forno branco"),
     "venice": ("photograph of Venice", "fotografia de Veneza"),
     "studio": ("studio with small bright lamps", "estúdio com lâmpadas pequenas e fortes"),
     "lambert": ("matt", "fosco"),
-    "gold 0.3": ("gold, α = 0.3", "ouro, α = 0.3"),
-    "gold 0.1": ("gold, α = 0.1", "ouro, α = 0.1"),
+    "gold 0.3": ("gold, α = 0.3", "ouro, α = 0,3"),
+    "gold 0.1": ("gold, α = 0.1", "ouro, α = 0,1"),
 }
 WORDS = {
     ERROR: {
@@ -224,7 +226,7 @@ def remarks(found):
             yield Remark(
                 *(
                     SAYS[lang].format(
-                        n=TOLD, way=name, more=f"{ratios[case]:.2g}", case=WORDS[case][lang]
+                        n=TOLD, way=name, more=number(ratios[case], 2, lang), case=WORDS[case][lang]
                     )
                     for lang, name in zip(("en", "pt"), WAYS[way], strict=True)
                 )
@@ -234,7 +236,9 @@ def remarks(found):
 def _pictures(estimator, shown, one, lamp, seen, case):
     """Yield a picture of each way; errors from one of many directions, other than the truth."""
     whole = estimator.radiance(shown, one, lamp, EYE, Way("both", "random", CONVERGED))
+    mean = whole[seen].mean()
     for drawn in WAYS:
         pixels = estimator.radiance(shown, one, lamp, EYE, Way(drawn, "spread", SHOWN))
-        off = np.abs(pixels - whole).max(axis=-1) / whole[seen].mean()
-        yield Shown(case, f"{drawn} {SHOWN}", pixels * seen[..., None], off * seen)
+        off = np.abs(pixels - whole).max(axis=-1) / mean
+        shown_as = pixels * (seen[..., None] / (WHITE * mean))
+        yield Shown(case, f"{drawn} {SHOWN}", shown_as, off * seen)

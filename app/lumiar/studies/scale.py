@@ -26,14 +26,23 @@ COUNTS = {  # case: how many of it, in full and quickly
     "objects": ([1, 4, 16, 64, 256], [1, 16, 64]),
 }
 OURS, FLOOR = "phong", "floor"
+OPEN = 0.5  # width of an exponent's interval that tells nothing
+STORED = ("pixels", "triangles")  # what takes memory
 PORTUGUESE = {"triangles": "triângulos", "lights": "luzes", "objects": "objetos"}
 WORDS = {
     TIME: {"en": "time of a frame", "pt": "tempo de um quadro"},
     MEMORY: {
-        "en": "memory on the card: the picture and its depth, or the mesh",
-        "pt": "memória na placa: a imagem e sua profundidade, ou a malha",
+        "en": "memory of the picture and its depth, or of the mesh",
+        "pt": "memória da imagem e sua profundidade, ou da malha",
     },
     **{case: {"en": case, "pt": PORTUGUESE.get(case, case)} for case in COUNTS},
+    **{
+        f"{case}, {MEMORY}": {
+            "en": f"{case}: memory on the card",
+            "pt": f"{PORTUGUESE.get(case, case)}: memória na placa",
+        }
+        for case in STORED
+    },
     **{
         f"{which} {n} {case}": {
             "en": f"{'Phong' if which == OURS else 'one colour'}, {case}: {n:,}",
@@ -90,12 +99,12 @@ def run(bench):
             timing = timing.per(1, 1e-3)
             found += study.points(case, name, {TIME: None}, timing, "ms", parameters=facts)
         yield from found
-        yield said(case, found)
-        for n in chosen if case in ("pixels", "triangles") else ():
+        yield from said(case, found)
+        for n in chosen if case in STORED else ():
             size = memory(case, scenes[OURS, n]) / 1e6
             facts = {"parameters": {"count": float(n)}}
             cost = (None, size, size, size, 0.0, "MB")
-            yield Point("", case, f"{OURS} {n} {case}", MEMORY, *cost, **facts)
+            yield Point("", f"{case}, {MEMORY}", f"{OURS} {n} {case}", MEMORY, *cost, **facts)
 
 
 class _Targets:
@@ -150,14 +159,16 @@ def power(points):
 
 
 def said(case, found):
-    """Return the Remark that the points of a case support."""
+    """Yield the Remark that the points of a case support, none where noise leaves too much open."""
     ours, base = ([p for p in found if p.variant.startswith(w)] for w in (OURS, FLOOR))
     low, high = power(ours)
+    if high - low > OPEN:
+        return
     facts = {"most": f"{round(ours[-1].parameters['count']):,}", "power": _between(low, high)}
     facts["ratio"] = _between(ours[-1].low / base[-1].high, ours[-1].high / base[-1].low)
     swapped = str.maketrans(",.", ".,")
     portuguese = {name: text.translate(swapped) for name, text in facts.items()}
-    return Remark(
+    yield Remark(
         SAYS["en"].format(case=WORDS[case]["en"], **facts),
         SAYS["pt"].format(case=WORDS[case]["pt"], **portuguese),
     )

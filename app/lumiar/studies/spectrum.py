@@ -7,7 +7,7 @@ import numpy as np
 
 from .. import catalog, colorimetry, materials, spectrum, study
 from ..files import ASSETS, GLSL, read_text
-from ..study import Metric, Shown
+from ..study import Metric, Remark, Shown
 
 TITLE = {
     "en": "Spectra: three colours or many wavelengths",
@@ -76,11 +76,18 @@ WORDS = {
         for metal, lamp in METALS[False]
     },
 }
+READ = Remark(
+    "In the pictures the upper half is as computed, the lower half the truth; to the left 20000 K,"
+    " or grazing light.",
+    "Nas imagens a metade de cima é a calculada, a de baixo a verdadeira; à esquerda 20000 K, ou"
+    " luz rasante.",
+)
 TO_XYZ = np.linalg.inv(np.transpose([spectrum.rgb(axis) for axis in np.eye(3)]))
 
 
 def run(bench):
     """Yield the points and pictures of this study."""
+    yield READ
     yield from _black_bodies(bench)
     yield from _metals(bench)
 
@@ -244,7 +251,7 @@ def _binned(metal, lamp, count):
 
 def _strip(xyz, truth, off):
     """Return a picture, what was measured above the truth, and the errors in it."""
-    rows = [np.array([spectrum.rgb(c) for c in one / one[:, 1:2].max()]) for one in (xyz, truth)]
+    rows = [np.array([spectrum.rgb(c) for c in one / one[:, 1:2]]) for one in (xyz, truth)]
     rows = [row / np.maximum(row.max(axis=1, keepdims=True), 1e-9) for row in rows]
     pixels = np.concatenate([np.repeat(np.maximum(row, 0.0)[None], 24, axis=0) for row in rows])
     return np.repeat(pixels, 2, axis=1).astype(np.float32), np.repeat(
