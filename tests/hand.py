@@ -10,7 +10,7 @@ SIZE = (1000, 3000)  # of the screen; high, so that nothing has to be scrolled
 _WIDGETS = {
     *("slider_float", "slider_int", "drag_float", "drag_int", "checkbox", "radio_button"),
     *("button", "small_button", "color_button", "invisible_button", "color_picker3"),
-    *("begin_combo", "selectable", "input_text_with_hint"),
+    *("begin_combo", "selectable", "input_text_with_hint", "begin_menu", "menu_item_simple"),
     *("collapsing_header", "tree_node", "tree_node_ex"),
 }
 

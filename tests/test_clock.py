@@ -55,7 +55,7 @@ def test_the_space_bar_lets_the_time_run_and_stops_it(viewer):
         times.append(viewer.stage.shown.time)
     assert times == sorted(set(times)) and times[0] > 0.0
     assert (shown(viewer) != picture).any()
-    assert viewer.document.history.scene is before  # nothing to undo yet
+    assert viewer.document.history.scene.scene is before  # nothing to undo yet
     space(viewer)
     assert viewer.scene.time >= times[-1] and not viewer.document.clock.runs
     settle(viewer)

@@ -34,7 +34,7 @@ def test_a_disc_is_dragged_and_its_light_follows_the_mouse(viewer):
     drag(viewer, (x + 3, y - 2), (x + 43, y + 28))
     assert math.dist(places(viewer)[2], (x + 40, y + 30)) < 0.01
     assert viewer.scene.camera == before.camera and viewer.scene.lights[:2] == before.lights[:2]
-    assert viewer.state.lamp == 2 and viewer.picked is None
+    assert viewer.state.lamp == 2 and viewer.pointer.picked is None
     assert (shown(viewer) != picture).any()
     assert (shown(viewer) == captured(hands.framed(viewer.scene, viewer._area()[1]))).all()
     press(viewer, glfw.KEY_Z, glfw.MOD_CONTROL)

@@ -16,19 +16,20 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "parameter cache supervise polygons reference_terms camera tomltext driverlog glsltext "
     "difference contract image sheet gonio captions spectrum claims arguments factors scale "
     "occluders history words notation watch phrases banner clock timing study bilingual "
-    "colorimetry",
+    "colorimetry judge comparing",
     "catalog mesh reference_energy tables panels units estimates card legend slide readout labels "
     "advice chart codearea plates",
     "ledger formats shapes plots factor_table reference flatten daylight widgets desktop auditor "
     "figures",
     "geometry compose parts materials hemisphere surroundings page",
-    "settings factor_card layout content variants navigate overlay",
+    "settings factor_card layout content variants navigate overlay deviation",
     "scenefile stock hands handles targets facing",
-    "scene editing sight charts",
-    "renderer lesson opening texts solids rows",
-    "picture options measure views report document estimate editor sections shelf",
-    "hostile measuring falsecolour reflectance deck presenter stage film stopwatch panel",
-    "examine probe bench curves plotfiles",
+    "scene editing contrast pointer sight charts",
+    "renderer lesson opening texts solids rows compare",
+    "picture options measure views report beside estimate editor sections shelf",
+    "hostile measuring falsecolour reflectance deck presenter stage film stopwatch panel "
+    "document gallery",
+    "examine probe bench curves plotfiles comparison snapshot",
     "audit filming datasheet studies plotter prober",
     "drawer",
     "window",
@@ -53,6 +54,8 @@ HOMES = {  # a heavy library and the modules that may know it
         "presenter",
         "overlay",
         "banner",
+        "gallery",
+        "comparison",
         "codearea",
         "editor",
         "desktop",

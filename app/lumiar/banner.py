@@ -2,8 +2,8 @@
 
 from imgui_bundle import imgui
 
-_DARK, _RED, _GREEN = (0.05, 0.06, 0.07), (0.42, 0.06, 0.06), (0.05, 0.28, 0.14)
-_FLAGS = (
+DARK, _RED, _GREEN = (0.05, 0.06, 0.07), (0.42, 0.06, 0.06), (0.05, 0.28, 0.14)
+FLAGS = (
     imgui.WindowFlags_.no_decoration
     | imgui.WindowFlags_.no_inputs
     | imgui.WindowFlags_.no_saved_settings
@@ -21,15 +21,15 @@ def draw(area, time, caption, fault, done):
     left, width, height = area
     em = imgui.get_font_size()
     bottom, most = height - 0.6 * em, max(10.0 * em, width - 4.0 * em)
-    _box("time", time, _DARK, 0.45, (left + width - 0.6 * em, bottom), 1.0, most)
+    box("time", time, DARK, 0.45, (left + width - 0.6 * em, bottom), (1.0, 1.0), most)
     for name, text, colour in (
-        ("caption", caption, _DARK),
+        ("caption", caption, DARK),
         ("fault", fault, _RED),
         ("done", done, _GREEN),
     ):
         if text:
             room = most - 6.0 * em if name == "caption" else most
-            high = _box(name, text, colour, 0.85, (left + 0.6 * em, bottom), 0.0, room)
+            high = box(name, text, colour, 0.85, (left + 0.6 * em, bottom), (0.0, 1.0), room)
             bottom -= high + 0.4 * em
 
 
@@ -38,7 +38,7 @@ def keys(area, lines):
     left, width, height = area
     imgui.set_next_window_pos((left + width / 2.0, height / 2.0), 0, (0.5, 0.5))
     imgui.set_next_window_bg_alpha(0.92)
-    imgui.begin("##keys", None, _FLAGS)
+    imgui.begin("##keys", None, FLAGS)
     if imgui.begin_table("##lines", 2, imgui.TableFlags_.sizing_fixed_fit):
         for line in lines:
             imgui.table_next_row()
@@ -49,22 +49,26 @@ def keys(area, lines):
     imgui.end()
 
 
-def ring(left, pixel):
-    """Mark a pixel of the picture, which begins `left` pixels from the left of the window."""
+def ring(corner, pixel):
+    """Mark a pixel of the picture, which begins at a pixel of the window."""
     scale = imgui.get_io().display_framebuffer_scale
-    place = ((left + pixel[0] + 0.5) / scale.x, (pixel[1] + 0.5) / scale.y)
+    at = [begin + x + 0.5 for begin, x in zip(corner, pixel, strict=True)]
+    place = (at[0] / scale.x, at[1] / scale.y)
     ink, radius = imgui.get_background_draw_list(), 0.5 * imgui.get_font_size()
     for colour, width in ((0xC0000000, 4.0), (0xFFFFFFFF, 2.0)):
         ink.add_circle(place, radius, colour, 0, width)
 
 
-def _box(name, text, colour, alpha, place, pivot, most):
-    """Write a text in a box of its own; return the height of the box."""
-    imgui.set_next_window_pos(place, 0, (pivot, 1.0))
+def box(name, text, colour, alpha, place, pivot, most):
+    """Write a text in a box of its own, of which `place` is the share `pivot` (across, down).
+
+    Returns the height of the box.
+    """
+    imgui.set_next_window_pos(place, 0, pivot)
     imgui.set_next_window_bg_alpha(alpha)
     imgui.push_style_color(imgui.Col_.window_bg, (*colour, 1.0))
     imgui.push_style_color(imgui.Col_.border, (0.0, 0.0, 0.0, 0.0))
-    imgui.begin(f"##{name}", None, _FLAGS)
+    imgui.begin(f"##{name}", None, FLAGS)
     imgui.push_text_wrap_pos(most)
     imgui.text_unformatted(text)
     imgui.pop_text_wrap_pos()

@@ -1,5 +1,7 @@
 """How two pictures differ, in numbers and as a picture."""
 
+import math
+
 import numpy as np
 
 from .errors import Mistake
@@ -25,6 +27,19 @@ def measure(a, b, threshold=0.0):
         "max": float(good.max()) if good.size else 0.0,
         "share": float(np.mean(~finite | (difference > threshold).any(2))),
         "not_finite": int(np.count_nonzero(~finite)),
+    }
+
+
+def levels(a, b):
+    """Return what `measure` does for two pictures (height, width, 3) of 8 bits of sRGB, sooner."""
+    apart = np.abs(a.astype(np.int16) - b)
+    counts = np.bincount(apart.ravel(), minlength=256)
+    mean = float(counts @ np.arange(256.0) ** 2) / apart.size
+    return {
+        "rmse": math.sqrt(mean) / 255.0,
+        "max": int(np.flatnonzero(counts)[-1]) / 255.0,
+        "share": float(np.mean(apart.any(2))),
+        "not_finite": 0,
     }
 
 

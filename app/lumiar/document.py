@@ -6,6 +6,7 @@ import time
 
 from . import lesson as lessons
 from . import opening
+from .beside import Beside, Edit
 from .clock import Clock
 from .errors import Mistake, one_line
 from .history import History
@@ -25,6 +26,7 @@ class Document:
     name    of the scene, and path that of its file, or ""
     home    the scene as it was opened; pages and page: (captions, Scene) of a sheet, and which
     stops   of a lesson, one for each page, else []
+    beside  what is shown beside the scene
     texts   what is edited and not saved, and what is wrong in which file; restored: as it was left
     """
 
@@ -32,6 +34,7 @@ class Document:
         self.watch, self.texts, self._memory = Watch(), Texts(restored), {}
         self.clock, self._running = Clock(SCENE["time"].high), (None, None)
         self.history, self._known, self._typed, self._waiting = None, (None, None), {}, None
+        self.beside = Beside(self)
         self.open(scene, name, path)
         self._read(self.texts.drafts)
 
@@ -64,15 +67,15 @@ class Document:
         """The paths of the files that hold text: awaited, of the scene, its models and lights."""
         awaited = [self._waiting[-1]] if self._waiting else []
         own = [self.path] if self.path else []
-        shaders = [shader.path for shader in opening.shaders(self.scene)]
+        shaders = [shader.path for shader in self._shaders]
         return [*dict.fromkeys((*awaited, *own, *shaders))]
 
     @property
     def scene(self):
         """The scene as it is, its shaders as their files are, its time where the clock runs."""
-        if self._known[0] is not self.history.scene:
-            now = opening.renewed(self.history.scene, self.texts.fresh, self._memory)
-            self._known = (self.history.scene, now)
+        if self._known[0] is not self.history.scene.scene:
+            now = opening.renewed(self.history.scene.scene, self.texts.fresh, self._memory)
+            self._known = (self.history.scene.scene, now)
         if not self.clock.runs:
             return self._known[1]
         still, time = self._known[1], self.clock.time
@@ -106,11 +109,15 @@ class Document:
     def push(self, scene, key=None):
         """Make a scene the one that is; see `History.push`."""
         if scene is not self.scene:
-            self.texts.faults.pop("", None)
-            if self.clock.runs and scene.time != self.scene.time:  # set by hand
-                self.clock.start(time.monotonic(), scene.time)
-            self.history.push(scene, key)
-            self._follow()
+            self.step(Edit(scene, self.beside.comparison), key)
+
+    def step(self, edit, key=None):
+        """Make an Edit the one that is; see `History.push`."""
+        self.texts.faults.pop("", None)
+        if self.clock.runs and edit.scene.time != self.scene.time:  # set by hand
+            self.clock.start(time.monotonic(), edit.scene.time)
+        self.history.push(edit, key)
+        self._follow()
 
     def play(self):
         """Let the time of the scene run, or stop it where it is, as a step to undo."""
@@ -138,10 +145,16 @@ class Document:
         self.history.redo()
         self._follow()
 
-    def drop(self, path, chosen=0):
-        """Bring a file into the scene, or open it if it is one; chosen: the object meant."""
+    def drop(self, path, chosen=0, onto=0):
+        """Bring a file into the scene, or open it if it is one; chosen: the object meant.
+
+        onto: the index of the picture that is meant, where several are shown.
+        """
         try:
             scene = lessons.load(path) if lessons.is_lesson(path) else None
+            if onto and not scene:
+                self.beside.drop(path, chosen, onto)
+                return
             scene = scene or opening.dropped(self.scene, path, chosen)
             if opening.is_scene(path):
                 self.open(scene, os.path.splitext(os.path.basename(path))[0], path)
@@ -202,11 +215,12 @@ class Document:
     def _read(self, paths):
         """Read those Shaders of the scene again that are files of such paths, or include them."""
         texts = self.texts
-        for shader in {one.path: one for one in opening.shaders(self.scene)}.values():
+        for shader in {one.path: one for one in self._shaders}.values():
             if shader.path in paths or not texts.libraries([shader]).isdisjoint(paths):
                 made = texts.read(shader, paths)
                 texts.fresh |= {made.path: made} if made else {}
         self._known = (None, None)
+        self.beside.stale()
         self._follow()
 
     def _load_again(self):
@@ -247,16 +261,22 @@ class Document:
         self.clock.stop()
         self.home = self.pages[self.page][1]
         if self.history and not self.stops:
-            self.history.push(self.home)
+            self.history.push(Edit(self.home, self.beside.comparison))
         else:
-            self.history = History(self.home)
+            self.history = History(Edit(self.home, self.beside.home))
         self._follow()
 
     @property
     def _followed(self):
         """The paths of all files that the scene is made from."""
-        libraries = self.texts.libraries(opening.shaders(self.scene))
-        return [*self.files, *opening.sources(self.scene), *libraries]
+        sources = (path for one in self.beside.scenes for path in opening.sources(one))
+        libraries = self.texts.libraries(self._shaders)
+        return [*dict.fromkeys((*self.files, *sources, *self.beside.files, *libraries))]
+
+    @property
+    def _shaders(self):
+        """The Shaders of the scene, and of those beside it."""
+        return [shader for one in self.beside.scenes for shader in opening.shaders(one)]
 
     def _follow(self):
         before = self.watch.paths

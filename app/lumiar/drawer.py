@@ -7,7 +7,9 @@ from imgui_bundle import imgui
 from .words import TEXT
 
 # {name: its key}, in the order of their buttons
-TOOLS = {"plots": "F3", "sheet": "F4", "probe": "F6", "editor": "F7", "film": "F8"}
+TOOLS = {
+    **{"compare": "F2", "plots": "F3", "sheet": "F4", "probe": "F6", "editor": "F7", "film": "F8"}
+}
 WIDE, NARROWEST = 0.34, 18.0  # share of the window, and the least in sizes of letters
 WIDER = {"editor": 0.42}  # share for what has long lines
 
@@ -23,7 +25,7 @@ class Now(NamedTuple):
     state    panel.State; words: those of its language
     stage    the picture, with its renderer and context; images: Overlay, see `image` there
     document what is open, and its files
-    left     where the picture begins, in pixels from the left of the window
+    corner   (x, y) of the window where that picture begins, in pixels
     time     of this frame, in seconds
     """
 
@@ -39,7 +41,7 @@ class Now(NamedTuple):
     stage: object
     images: object
     document: object
-    left: int
+    corner: tuple
     time: float
 
 
@@ -97,6 +99,10 @@ class Drawer:
 
 def _made(name, now):
     """Return a tool; what it needs is imported only here."""
+    if name == "compare":
+        from .comparison import Comparing
+
+        return Comparing()
     if name == "sheet":
         from .datasheet import Datasheet
 

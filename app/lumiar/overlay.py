@@ -33,14 +33,20 @@ class Overlay(OnCard):
         for one in (*self._textures.values(), *filter(None, made)):
             one.release()
 
-    def picture(self, texture, framebuffer, left):
-        """Draw a texture of sRGB, top row first, unchanged; left: where it begins, in pixels."""
+    def picture(self, texture, framebuffer, corner, part=None):
+        """Draw a texture of sRGB, top row first, unchanged.
+
+        corner (x, y) is where it begins, in pixels from the lower left; part (x, y, width, height)
+        of the framebuffer is all that is covered.
+        """
         framebuffer.use()
-        framebuffer.viewport = (left, 0, *texture.size)
-        self._plain["rig_left"].value = left
+        framebuffer.viewport = (*corner, *texture.size)
+        framebuffer.scissor = part
+        self._plain["rig_corner"].value = corner
         self.context.enable_only(self.context.NOTHING)
         texture.use(0)
         self._screen.render(self.context.TRIANGLES, vertices=3)
+        framebuffer.scissor = None
 
     def image(self, size, pixels):
         """Return a new texture of RGBA, for `imgui.image`, that `drop` frees."""

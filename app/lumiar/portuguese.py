@@ -5,6 +5,7 @@ NAMES = {  # of values, in Portuguese; the others are written as in the GLSL fil
     "model": "modelo",
     "object": "objeto",
     "kind": "tipo",
+    "light": "luz",
     "unit": "unidade",
     "illuminant": "iluminante",
     "image": "imagem",

@@ -47,7 +47,7 @@ class Prober:
             stale = False
         elif stale:
             now.state.wake = min(now.state.wake, now.time + REST)
-        banner.ring(now.left, at)
+        banner.ring(now.corner, at)
         if self._fault:
             _write(self._fault, RED)
         if self.found:

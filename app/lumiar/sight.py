@@ -40,7 +40,7 @@ class Sight:
             elif self._pinned:
                 self._pinned = None
         if self.facing:
-            banner.ring(now.left, self.pixel)
+            banner.ring(now.corner, self.pixel)
 
     def directions(self, chosen, light=None):
         """Return (L, V) there on the chosen object, None where that is not what is seen.

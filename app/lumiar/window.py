@@ -5,7 +5,7 @@ import time
 
 from imgui_bundle import imgui
 
-from . import banner, handles, hands, opening, panel, picture, presenter, words
+from . import banner, gallery, handles, opening, panel, presenter, snapshot, words
 from .desktop import LETTERS, Desktop, glfw
 from .document import Document
 from .drawer import TOOLS, Drawer, Now
@@ -13,6 +13,7 @@ from .errors import Mistake, one_line
 from .files import shortened, unused
 from .overlay import Overlay
 from .phrases import TEXT
+from .pointer import Pointer
 from .stage import REST, Stage
 
 SIZE = (1280, 800)
@@ -38,12 +39,12 @@ class Viewer:
         self.stage, self.overlay, self.drawer = Stage(context), Overlay(context), Drawer()
         panel.prepare(LETTERS * self.desktop.scale)
         imgui.get_style().scale_all_sizes(self.desktop.scale)
-        self.state, self.hands = panel.State(lang=lang, tools=tuple(TOOLS)), hands.Hands()
+        self.state = panel.State(lang=lang, tools=tuple(TOOLS))
         self.presenter, self.handles = presenter.Presenter(self.overlay), handles.Handles()
         self.presents = bool(self.document.stop)
         self.fault, self.notice, self.titled = "", ("", 0.0), ""
         self.moved = self.awake = 0.0
-        self.picked, self._pressed, self._place = None, None, (0.0, 0.0)
+        self.pointer, self._seen = Pointer(self.stage, self.document.beside), None
         self.with_panel, self.with_keys, self.due = True, False, FRAMES
         self.kept, self.kept_at = None, time.monotonic()
 
@@ -71,9 +72,9 @@ class Viewer:
     def run(self):
         """Turn until the window is closed."""
         while not self.desktop.closing:
-            wait = 0.0 if self.due else 0.05 if self.document.watch.restless else IDLE
-            now = time.monotonic()
-            wait = min(wait, 0.1) if self._lingers(now) else wait
+            now, idle = time.monotonic(), 0.05 if self.document.watch.restless else IDLE
+            wait = min(idle, 0.1) if self._lingers(now) else idle
+            wait = 0.0 if self.due and 0 not in self.desktop.size else wait
             self.frame(max(0.0, min(wait, self.state.wake - now)))
 
     def frame(self, wait=0.0):
@@ -91,6 +92,7 @@ class Viewer:
             getattr(self, f"_on_{event}")(*how)
         if saved:
             self._reload(saved)
+        self._notice_step()
         if not (self.due or self._lingers(now)) or 0 in self.desktop.size:
             if now - self.kept_at > KEEP:
                 self._keep()
@@ -115,16 +117,18 @@ class Viewer:
             parts = self.presenter.parts(self.document.stop) if self.presents else panel.ALL
             self._push(panel.draw(self.scene, self.state, parts), self.state.gesture)
             self._wish()
-        self._push(self.drawer.draw(self._now(now)), self.state.gesture)
+        self._push(self.drawer.draw(self._now(now)), panel.gesture(self.state))
         self.due = max(self.due, 2 * self.state.restless)
+        self._notice_step()
         left, size = self._area()
-        self.stage.draw(self.scene, size, now - self.moved)
+        self.pointer.left = left
+        self.stage.draw(self.document.beside, self.scene, size, now - self.moved)
+        if self.stage.busy:
+            self.state.wake = min(self.state.wake, now + IDLE)
         self._say_over(left, size, now)
         imgui.render()
-        screen = desktop.context.screen
-        screen.clear()  # else what was there shines through the panels
-        self.overlay.picture(self.stage.canvas.color_attachments[0], screen, left)
-        self.overlay.widgets(imgui.get_draw_data(), screen, desktop.size)
+        self.stage.present(self.overlay, left)
+        self.overlay.widgets(imgui.get_draw_data(), desktop.context.screen, desktop.size)
         desktop.show()
         title = f"{self.document.name} · Lumiar".removeprefix(" · ")
         if title != self.titled:
@@ -144,18 +148,12 @@ class Viewer:
         """Return what the tools are told."""
         stage, state = self.stage, self.state
         fault = self.document.fault or stage.fault
+        pointed = None if self.desktop.io.want_capture_mouse else self.pointer.pixel
         return Now(
-            *(self.scene, stage.shown, stage.view, self.picked, self._pointed()),
+            *(self.scene, stage.shown, stage.view, self.pointer.picked, pointed),
             *(fault, now - self.moved > REST, state, words.TEXT[state.lang]),
-            *(stage, self.overlay, self.document, self._area()[0], now),
+            *(stage, self.overlay, self.document, stage.corner(self._area()[0]), now),
         )
-
-    def _pointed(self):
-        """Return the pixel of the picture below the mouse, None while it is elsewhere or drags."""
-        x, y = int(self._place[0]) - self._area()[0], int(self._place[1])
-        size = self.stage.shown.size if self.stage.shown else (0, 0)
-        busy = self.desktop.io.want_capture_mouse or self.hands.holds
-        return (x, y) if not busy and 0 <= x < size[0] and 0 <= y < size[1] else None
 
     def _wish(self):
         """Do what a button of the panel asks for."""
@@ -170,12 +168,7 @@ class Viewer:
     def _say_over(self, left, size, now):
         """Say over the picture what has to be said."""
         words, document = TEXT[self.state.lang], self.document
-        caption = picture.in_language(document.caption, self.state.lang)
-        stop = document.stop
-        at = (stop.number, stop.steps) if stop else (document.page + 1, len(document.pages))
-        if at[1] > 1:
-            page = words["page"].format(*at)
-            caption = f"{page}   {caption}".strip()
+        caption = gallery.caption(document, self.state.lang)
         fault = shortened(document.fault or self.stage.fault or self.fault)
         fault = f"{fault}\n{words['last']}" if fault else ""
         if not self.with_panel:
@@ -183,49 +176,45 @@ class Viewer:
         done = self.notice[0] if now < self.notice[1] and not fault else ""
         points = imgui.get_io().display_size.x / self.desktop.size[0]
         area = (left * points, size[0] * points, size[1] * points)
-        marked = None if self.presents else self.stage.shown
+        marked = None if self.presents or self.stage.mode != "one" else self.stage.shown
         self.handles.draw(marked, self.stage.view, left, self.state.lamp)
         banner.draw(area, f"{1000.0 * self.stage.cost:.1f} ms", caption, fault, done)
+        gallery.draw(
+            self.stage, document.beside.said(self.state.lang), left, points, self.state.lang
+        )
         if self.with_keys:
             banner.keys(area, words["keys"])
 
     def _push(self, scene, key=None):
         if scene is not self.scene:
             self.document.push(scene, key)
-            self.fault = ""
+
+    def _notice_step(self):
+        """Take note of a change of the scene, or of what is shown beside it."""
+        if self.document.history.scene is not self._seen:
+            self._seen, self.fault = self.document.history.scene, ""
             self.due, self.moved = FRAMES, time.monotonic()
 
     def _on_press(self, button, held):
         if not self.desktop.io.want_capture_mouse:
-            grabbed = self.handles.at(self._place)
+            grabbed = self.handles.at(self.pointer.place)
             self.state.lamp = self.state.lamp if grabbed is None else grabbed
-            self.hands.press(button, held, self.state.lamp, grabbed is not None)
-            plain = button == glfw.MOUSE_BUTTON_LEFT and not held and grabbed is None
-            self._pressed = self._place if plain else None
+            self.pointer.press(button, held, self.state.lamp, grabbed is not None)
 
     def _on_release(self, _):
-        self.hands.release()
-        if self._pressed and self._pressed == self._place:
-            self.picked = (self._place[0] - self._area()[0], self._place[1])
-        self._pressed = None
+        self.pointer.release()
         self.document.history.push(self.document.history.scene)  # ends the step
 
     def _on_move(self, place):
-        self._place = place
-        looks = self._looks() if self.hands.holds and 0 not in self.desktop.size else (None, None)
-        self._push(*self.hands.move(self.scene, *looks, place))
+        self.pointer.move(place)
 
     def _on_wheel(self, notches):
-        if not self.desktop.io.want_capture_mouse and 0 not in self.desktop.size:
-            self._push(*self.hands.wheel(self.scene, *self._looks(), notches))
-
-    def _looks(self):
-        """Return the scene as framed, or the last one that could be drawn, and its viewpoint."""
-        return self.stage.looks(self.scene, self._area()[1])
+        if not self.desktop.io.want_capture_mouse:
+            self.pointer.wheel(notches)
 
     def _on_drop(self, paths):
         for path in paths:
-            self.document.drop(path, self.state.chosen)
+            self.document.drop(path, self.state.chosen, self.pointer.index)
         self.presents = self.presents or bool(self.document.stop)
 
     def _on_other(self):
@@ -241,7 +230,9 @@ class Viewer:
             if key in (glfw.KEY_Z, glfw.KEY_Y):
                 (document.redo if forward or key == glfw.KEY_Y else document.undo)()
         elif key == glfw.KEY_R:
-            self._push(self.scene._replace(camera=document.home.camera))
+            document.beside.look_home()
+        elif key in _TURNS and forward and self.stage.mode == "split":
+            self.stage.slide(0.05 * _TURNS[key])
         elif key in _TURNS:
             document.turn(_TURNS[key])
         elif key == glfw.KEY_SPACE:
@@ -276,7 +267,7 @@ class Viewer:
     def _screenshot(self):
         path = unused("lumiar", ".png")
         try:
-            picture.write(self.stage.shown, path, self.stage.renderer)
+            snapshot.write(self.stage, self.document, self.state.lang, path)
         except (Mistake, OSError) as error:
             self.fault = one_line(error)
         else:
