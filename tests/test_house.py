@@ -22,7 +22,7 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "ledger formats shapes plots factor_table reference flatten daylight widgets desktop auditor "
     "figures",
     "geometry compose parts materials hemisphere surroundings page",
-    "settings factor_card layout content variants navigate overlay deviation",
+    "settings factor_card layout content variants navigate overlay deviation uses",
     "scenefile stock hands handles targets facing",
     "scene editing contrast pointer sight charts",
     "renderer lesson opening texts solids rows compare",
@@ -30,7 +30,7 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "hostile measuring falsecolour reflectance deck presenter stage film stopwatch panel "
     "document gallery",
     "examine probe bench curves plotfiles comparison snapshot",
-    "audit filming datasheet studies plotter prober",
+    "audit filming datasheet studies plotter prober bargains",
     "drawer",
     "window",
     "verbs benching",
@@ -67,6 +67,7 @@ HOMES = {  # a heavy library and the modules that may know it
         "solids",
         "charts",
         "filming",
+        "bargains",
         "rows",
         "shelf",
         "handles",
