@@ -157,7 +157,7 @@ def _plot(points, mine, metric, names, words, lang):
     for axis, one, start in zip((implot.ImAxis_.x1, implot.ImAxis_.y1), (x, y), low, strict=True):
         implot.setup_axis_scale(axis.value, implot.Scale_.log10.value)
         implot.setup_axis_limits(axis.value, start, one.high, implot.Cond_.always)
-        said = {value or start: label for value, label in one.ticks()}
+        said = {value or start: number(value, 3, lang) for value, _ in one.ticks()}
         implot.setup_axis_ticks(axis.value, [*said], [*said.values()])
     implot.setup_finish()
 
