@@ -23,7 +23,7 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "figures",
     "geometry compose parts materials hemisphere surroundings page",
     "settings factor_card layout content variants navigate overlay deviation uses",
-    "scenefile stock hands targets facing",
+    "scenefile stock hands handles targets facing",
     "scene editing contrast pointer sight charts",
     "renderer lesson opening texts solids rows compare",
     "picture options measure views report beside estimate editor gate tryout sections shelf",
@@ -70,6 +70,7 @@ HOMES = {  # a heavy library and the modules that may know it
         "bargains",
         "rows",
         "shelf",
+        "handles",
     },
     "glfw": {"desktop"},
 }
