@@ -120,3 +120,33 @@ def test_what_has_no_place_cannot_be_moved():
 def _light(name):
     kind = catalog.read("light", name)
     return Light(kind, kind.defaults())
+
+
+@pytest.mark.parametrize("scale", SCALES)
+@pytest.mark.parametrize("up", UPS)
+@pytest.mark.parametrize("name", ["point", "polygon"])
+def test_a_light_that_is_carried_stays_below_the_mouse(scale, up, name):
+    light, one = _light(name), Camera(up=up)
+    corners = [p.name for p in light.kind.parameters if p.type == "vec3" and p.unit == "m"]
+    values = {key: tuple(scale * p / 9.0 for p in light.values[key]) for key in corners}
+    light = light._replace(values={**light.values, **values})
+    eye, target, _ = seen(one, scale)
+    before = np.array(navigate.pixel(navigate.standing(light), one, eye, target, (600, 400)))
+    share = on_screen(one, scale, navigate.standing(light))
+    assert before == pytest.approx(400 * share + [300, 200], abs=1e-6)
+    moved = navigate.carry(light, one, eye, target, 0.1, -0.2)
+    after = light._replace(values={**light.values, **moved})
+    place = navigate.pixel(navigate.standing(after), one, eye, target, (600, 400))
+    assert np.array(place) - before == pytest.approx([40.0, -80.0], abs=1e-6)
+    ahead = np.subtract(target, eye) / math.dist(eye, target)
+    shift = np.subtract(navigate.standing(after), navigate.standing(light))
+    assert abs(shift @ ahead) < 1e-9 * scale  # as far from the eye as before
+
+
+def test_what_is_behind_the_eye_or_stands_nowhere_has_no_pixel():
+    one = Camera()
+    eye, target, _ = seen(one)
+    behind = tuple(2.0 * e - t for e, t in zip(eye, target, strict=True))
+    assert navigate.pixel(behind, one, eye, target, (600, 400)) is None
+    standing = {name for name in catalog.names("light") if navigate.standing(_light(name))}
+    assert standing == {"point", "spot", "sphere", "disk", "quad", "polygon"}

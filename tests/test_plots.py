@@ -2,6 +2,7 @@
 
 import csv as csvs
 import math
+import time
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ from lumiar import (
     plotfiles,
     plotter,
     probe,
+    readout,
     reference,
     reference_terms,
     tables,
@@ -66,6 +68,10 @@ def point(one, x=0.6, y=0.4):
     pixel = int(x * width), int(y * height)
     one.desktop.move(left + pixel[0], pixel[1])
     settle(one)
+    while one.state.wake < math.inf:  # looks are not taken faster than the machine bears
+        time.sleep(max(0.0, one.state.wake - time.monotonic()))
+        one.frame()
+        settle(one)
     return pixel
 
 
@@ -90,7 +96,7 @@ def expected(one, L, V):
 
 
 @pytest.mark.parametrize("model", ["lambert", "phong", "cook_torrance"])
-def test_a_curve_is_the_model_at_the_directions_that_are_marked(viewer, model):
+def test_a_curve_is_the_model_at_the_directions_that_are_marked(viewer, model, monkeypatch):
     with_model(viewer, model)
     pixel = click(viewer)
     drawn = tool(viewer).drawn
@@ -102,6 +108,8 @@ def test_a_curve_is_the_model_at_the_directions_that_are_marked(viewer, model):
     assert facing.turn(L, V) == pytest.approx(light["azimuth_deg"], abs=1e-9)
     value = tool(viewer).value(drawn.models[0])
     assert value == pytest.approx(light["f_rgb_1_sr"]) == expected(viewer, L, V)[0]
+    shown = f"f(L, V) = {readout.number(light['f_1_sr'])} sr⁻¹"
+    assert shown in spied(viewer, monkeypatch).said  # as the probe says it
     (curve,) = drawn.shown
     angle, off = drawn.aim.angle(V)
     assert abs(angle) == facing.theta(V) and off == pytest.approx(0.0, abs=1e-4)
@@ -189,6 +197,9 @@ def test_every_plot_is_drawn_read_at_the_mouse_and_written(viewer, monkeypatch, 
     press_on(viewer, monkeypatch, "save CSV")
     if kind in ("polar", "fresnel"):  # which take a second each
         press_on(viewer, monkeypatch, "save PNG")
+        while tool(viewer).painting:
+            time.sleep(0.05)
+            viewer.frame()
         with Image.open("lumiar-plot-001.png") as picture:
             assert len(np.unique(np.asarray(picture.convert("L")))) > 20
     drawn = tool(viewer).drawn

@@ -1,4 +1,4 @@
-"""What a page says in both languages at once: each text once per language, one of them shown."""
+"""What is said of a report of `lumiar bench`; on a page in every language, one of them shown."""
 
 from html import escape
 
@@ -23,6 +23,8 @@ TEXT = {
         "visible": "seen above",
         "floor": "as good as exact",
         "alone": "With no other variant",
+        "scene": "this scene",
+        "none": "no report here: run `lumiar bench`",
         "scale": "error",
         "log scale": "error, log scale",
     },
@@ -46,6 +48,8 @@ TEXT = {
         "visible": "vê-se acima",
         "floor": "como exato",
         "alone": "Sem outra variante",
+        "scene": "esta cena",
+        "none": "nenhum relatório aqui: execute `lumiar bench`",
         "scale": "erro",
         "log scale": "erro, escala log",
     },

@@ -14,16 +14,15 @@ LANGUAGES = ("en", "pt")
 WIDTH, HEIGHT = 360.0, 270.0  # units of the picture; letters have SIZE of them
 LEFT, RIGHT, TOP, BOTTOM = 50.0, 12.0, 24.0, 46.0
 SIZE, WIDE = 14.0, 0.6  # of letters, and their width over their size, about
-RADIUS = 5.0
 COLOURS = 7
 BEYOND = 1e12  # what no scale is stretched for, as an error where a formula overflows
-SHAPES = (  # on a circle of radius 1: told apart without any colour, too
-    "",  # a circle
-    "M-.85-.85H.85V.85H-.85Z",
-    "M0-1.2L1.1.75H-1.1Z",
-    "M0-1.25L1.05 0 0 1.25-1.05 0Z",
-    "M0 1.2L1.1-.75H-1.1Z",
-    "M-1.1-.4H-.4V-1.1H.4V-.4H1.1V.4H.4V1.1H-.4V.4H-1.1Z",
+SHAPES = (  # about 5 in each direction: told apart without any colour, too
+    "M-5 0A5 5 0 0 1 5 0 5 5 0 0 1-5 0Z",
+    "M-4.2-4.2H4.2V4.2H-4.2Z",
+    "M0-6L5.5 3.8H-5.5Z",
+    "M0-6.2L5.2 0 0 6.2-5.2 0Z",
+    "M0 6L5.5-3.8H-5.5Z",
+    "M-5.5-2H-2V-5.5H2V-2H5.5V2H2V5.5H-2V2H-5.5Z",
 )
 _STEPS = ((1.0,), (1.0, 3.0), (1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 5.0, 7.0))
 
@@ -91,18 +90,24 @@ def fitted(values, length, least=4.0):
     return Axis(low / wider, high * wider, length, any(not v > 0.0 for v in values))
 
 
-def glyph(style, x=0.0, y=0.0, full=True):
-    """Return the SVG of a mark's shape in its colour, full or hollow."""
-    looks = f'class="c{style % COLOURS}{"" if full else " open"}"'
-    shape = SHAPES[style % len(SHAPES)]
-    if not shape:
-        return f'<circle {looks} cx="{x:.1f}" cy="{y:.1f}" r="{RADIUS:g}"/>'
-    # lines keep their width: it is said in the style as not scaling
-    return f'<path {looks} transform="translate({x:.1f} {y:.1f})scale({RADIUS:g})" d="{shape}"/>'
+def shapes():
+    """Return the shapes of all marks, to stand once in a page before any `glyph`."""
+    drawn = [f'<path id="m{i}" d="{way}"/>' for i, way in enumerate(SHAPES)]
+    return f'<svg class="shapes"><defs>{"".join(drawn)}</defs></svg>'
+
+
+def looks(style, full=True):
+    """Return the class of a mark, full or hollow."""
+    return f"c{style % COLOURS}{'' if full else ' open'}"
+
+
+def glyph(style, more=""):
+    """Return the SVG of a mark's shape."""
+    return f'<use href="#m{style % len(SHAPES)}"{more}/>'
 
 
 def svg(marks, titles, along="x", levels=(), lines=()):
-    """Return the SVG of marks.
+    """Return (the SVG of marks, whether every one has its name beside it in every language).
 
     titles   (of x, of y), each {language: text}
     along    the axis of the intervals; "x" draws the front of the best marks, too
@@ -135,11 +140,15 @@ def svg(marks, titles, along="x", levels=(), lines=()):
     parts.append(f'<path class="bar" d="{bars}"/>')
     for mark, (px, py) in zip(marks, places, strict=True):
         ring = f'<circle class="ring" cx="{px:.1f}" cy="{py:.1f}" r="9"/>' if mark.ring else ""
-        drawn = glyph(mark.style, px, py, mark.best or along == "y")
+        look = looks(mark.style, mark.best or along == "y")
+        drawn = glyph(mark.style, f' class="{look}" transform="translate({px:.1f} {py:.1f})"')
         parts.append(f"<g><title>{escape(mark.tip)}</title>{ring}{drawn}</g>")
+    named = True
     for lang in LANGUAGES:
-        parts.append(f'<g lang="{lang}">{_words(marks, places, titles, taken, lang)}</g>')
-    return f'<svg viewBox="0 0 {WIDTH:g} {HEIGHT:g}" role="img">{"".join(parts)}</svg>'
+        names = [*_labels(marks, places, taken, lang)]
+        named = named and len(names) == len(marks)
+        parts.append(f'<g lang="{lang}">{_words(marks, names, titles, lang)}</g>')
+    return f'<svg viewBox="0 0 {WIDTH:g} {HEIGHT:g}" role="img">{"".join(parts)}</svg>', named
 
 
 def _grid(x, y):
@@ -163,7 +172,8 @@ def _level(height, texts, shaded, taken):
 
     taken: the boxes of what is there, to which its own is added.
     """
-    base, right = height + (SIZE + 1.0 if shaded else -4.0), WIDTH - RIGHT
+    under = shaded and height + SIZE + 4.0 < HEIGHT - BOTTOM
+    base, right = height + (SIZE + 1.0 if under else -4.0), WIDTH - RIGHT
     wide = WIDE * SIZE * max(map(len, texts.values()))
     boxes = {"end": (right - wide, right), "start": (LEFT + 4.0, LEFT + 4.0 + wide)}
     boxes = {side: (a, base - SIZE, b, base + 3.0) for side, (a, b) in boxes.items()}
@@ -193,14 +203,14 @@ def _front(places):
     return f'<path class="front" d="{way}H{WIDTH - RIGHT:g}"/>'
 
 
-def _words(marks, places, titles, taken, lang):
+def _words(marks, names, titles, lang):
     """Return the titles and names in one language."""
     axes = (("end", WIDTH - RIGHT, HEIGHT - 8), ("start", 2.0, 15.0))
     out = [
         f'<text class="{side}" x="{x:g}" y="{y:g}">{escape(title[lang])}</text>'
         for (side, x, y), title in zip(axes, titles, strict=True)
     ]
-    for where, (px, py), words in _labels(marks, places, taken, lang):
+    for where, (px, py), words in names:
         strong = " strong" if marks[where].best else ""
         out.append(f'<text class="label{strong}" x="{px:.1f}" y="{py:.1f}">{escape(words)}</text>')
     return "".join(out)
@@ -216,7 +226,7 @@ def _labels(marks, places, taken, lang):
             continue
         (px, py), wide = places[i], WIDE * SIZE * len(text) * (1.1 if marks[i].best else 1.0)
         spots = [(px + 10, py + 5), (px - 10 - wide, py + 5)]
-        for up in (-10.0, 20.0) if len(text) < 6 else (-10.0, 20.0, -25.0, 35.0):
+        for up in (-10.0, 20.0) if text[0].isdigit() else (-10.0, 20.0, -25.0, 35.0):
             spots += [(px - wide / 2 + k * wide / 2, py + up) for k in (0.0, 0.8, -0.8)]
         for left, base in spots:
             box = (left - 2, base - SIZE + 1, left + wide + 2, base + 4)

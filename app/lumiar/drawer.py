@@ -8,7 +8,8 @@ from .words import TEXT
 
 # {name: its key}, in the order of their buttons
 TOOLS = {
-    **{"compare": "F2", "plots": "F3", "sheet": "F4", "probe": "F6", "editor": "F7", "film": "F8"}
+    **{"compare": "F2", "plots": "F3", "sheet": "F4", "probe": "F6"},
+    **{"editor": "F7", "film": "F8", "study": "F9"},
 }
 WIDE, NARROWEST = 0.34, 18.0  # share of the window, and the least in sizes of letters
 WIDER = {"editor": 0.42}  # share for what has long lines
@@ -123,4 +124,8 @@ def _made(name, now):
         from .prober import Prober
 
         return Prober(now)
+    if name == "study":
+        from .bargains import Bargains
+
+        return Bargains()
     raise ValueError(name)

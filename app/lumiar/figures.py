@@ -28,7 +28,7 @@ def figure(one, group, styles, advised):
     marks = {}
     for point in drawn if priced or scaled else ():
         names, (kind, count) = name_of(one, point.variant), series(point.variant)
-        short = dict.fromkeys(TEXT, count if priced else "") if kind in lines else names
+        short = dict.fromkeys(TEXT, _spaced(count) if priced else "") if kind in lines else names
         x, y = (point.cost, point.error) if priced else (point.parameters[scaled], point.cost)
         interval, style, tip = (point.low, point.high), styles[kind], _tip(point, names)
         marks[point.variant] = Mark(x, y, interval, style, short, tip, point.pareto, point.default)
@@ -45,9 +45,14 @@ def figure(one, group, styles, advised):
         levels = [(metric[key], word(key), key == "floor") for key in ("visible", "floor")]
         joined = [[marks[p.variant] for p in line if p.variant in marks] for line in lines.values()]
         along, levels = ("x", levels) if priced else ("y", ())
-        parts.append(chart.svg([*marks.values()], titles, along, levels, joined))
-        parts.append(_keys(one, group, lines, styles))
+        plot, named = chart.svg([*marks.values()], titles, along, levels, joined)
+        parts += [plot] if named else [plot, _keys(one, group, lines, styles)]
     return "".join(parts) + _values(one, group, styles) + "</figure>"
+
+
+def _spaced(count):
+    """Return a number's digits with a little room between thousands, from five digits on."""
+    return f"{int(count):,}".replace(",", "\u202f") if count and len(count) > 4 else count
 
 
 def _lines(group):
@@ -68,9 +73,9 @@ def _varied(group):
     """Return the parameter that differs most often between points, "" where none does."""
     seen = {}
     for point in group:
-        for name, value in point.parameters.items():
+        for name, value in (point.parameters or {}).items():
             seen.setdefault(name, set()).add(value)
-    shared = [n for n in seen if all(p.parameters.get(n, 0.0) > 0.0 for p in group)]
+    shared = [n for n in seen if all((p.parameters or {}).get(n, 0.0) > 0.0 for p in group)]
     name = max(shared, key=lambda n: len(seen[n]), default="")
     return name if name and len(seen[name]) > 1 else ""
 
@@ -108,7 +113,8 @@ def _alike(a, b):
 
 
 def _key(style, full=True):
-    return f'<svg class="key" viewBox="-7 -7 14 14">{chart.glyph(style, 0.0, 0.0, full)}</svg>'
+    look = chart.looks(style, full)
+    return f'<svg class="key {look}" viewBox="-7 -7 14 14">{chart.glyph(style)}</svg>'
 
 
 def alone(one, points, styles):
@@ -140,7 +146,7 @@ def _row(name, point, styles):
     numbers = ["" if point.error is None else number(point.error)]
     numbers += [f"{number(point.cost)} {point.unit}"]
     numbers += [f"{number(point.low)} … {number(point.high)}"]
-    cells = "".join(f'<td class="n">{text}</td>' for text in numbers)
+    cells = "".join(f"<td>{text}</td>" for text in numbers)
     best = ' class="best"' if point.pareto else ""
     return f'<tr{best}><th scope="row">{mark}{name}</th>{cells}</tr>'
 

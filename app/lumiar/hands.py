@@ -17,20 +17,24 @@ class Hands:
 
     def __init__(self):
         self._doing, self._drags, self._place, self._height = None, 0, (0.0, 0.0), 1
+        self._lamp = 0
 
     @property
     def holds(self):
         """Whether the picture is being dragged."""
         return self._doing is not None
 
-    def press(self, button, held, height):
+    def press(self, button, held, height, lamp=0, grabbed=False):
         """Begin to drag: left turns, with Alt moves the light; the rest moves the view.
 
-        height: of the picture, in pixels.
+        height: of the picture, in pixels; lamp: index of the light; grabbed: whether it is held
+        where it stands in the picture.
         """
         self._drags += 1
-        self._height = max(1, height)
-        if button != LEFT or held & SHIFT:
+        self._height, self._lamp = max(1, height), lamp
+        if button == LEFT and grabbed:
+            self._doing = "carry"
+        elif button != LEFT or held & SHIFT:
             self._doing = "pan"
         else:
             self._doing = "light" if held & ALT else "orbit"
@@ -52,10 +56,13 @@ class Hands:
                 return scene
             return _with_camera(scene, turn(shown.camera, *view, dx, dy))
 
-        def swung(scene, shown, view):
-            return scene if shown is None else _swung(scene, view, dx, dy)
+        how = self._lamp, self._doing == "carry"
 
-        return swung if self._doing == "light" else turned, (self._doing, self._drags)
+        def moved(scene, shown, view):
+            return scene if shown is None else _moved(scene, *how, shown.camera, *view, dx, dy)
+
+        lit = self._doing in ("light", "carry")
+        return moved if lit else turned, (self._doing, self._drags)
 
     def wheel(self, notches):
         """Take a turn of the wheel; return what it does, and a key."""
@@ -84,11 +91,13 @@ def _with_camera(scene, camera):
     return scene._replace(camera=camera._replace(fov=scene.camera.fov))
 
 
-def _swung(scene, view, dx, dy):
-    """Return the scene with the first light that has a place moved."""
-    for i, light in enumerate(scene.lights):
-        if navigate.movable(light):
-            moved = navigate.swing(light, scene.camera, *view, dx, dy)
+def _moved(scene, index, carries, *how):
+    """Return the scene with a light moved, or, where that cannot be, the first that can."""
+    for i in sorted(range(len(scene.lights)), key=lambda i: i != index):
+        light = scene.lights[i]
+        swings = navigate.movable(light) and not carries
+        if swings or navigate.standing(light):
+            moved = (navigate.swing if swings else navigate.carry)(light, *how)
             for name, value in moved.items():
                 light = settings.light_with(light, name, value)
             return scene._replace(lights=(*scene.lights[:i], light, *scene.lights[i + 1 :]))

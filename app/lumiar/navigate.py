@@ -72,6 +72,42 @@ def swing(light, camera, eye, target, dx, dy):
     return {handle: _plus(centre, arm)}
 
 
+def standing(light):
+    """Return where a light stands, or the middle of its corners; None if nowhere."""
+    corners = _corners(light)
+    if not corners:
+        return None
+    places = [light.values[name] for name in corners]
+    return tuple(sum(axis) / len(places) for axis in zip(*places, strict=True))
+
+
+def carry(light, camera, eye, target, dx, dy):
+    """Return {parameter: value} that moves a light that stands somewhere as the mouse went."""
+    right, up, back = _axes(camera, eye, target)
+    depth = dot(_plus(eye, _scaled(standing(light), -1.0)), back)
+    height = 2.0 * math.tan(math.radians(camera.fov) / 2.0) * depth
+    shift = _plus(_scaled(right, dx * height), _scaled(up, -dy * height))
+    return {name: _plus(light.values[name], shift) for name in _corners(light)}
+
+
+def pixel(place, camera, eye, target, size):
+    """Return the (x, y) at which a place is seen in a picture of a size, None if behind the eye."""
+    arm = _plus(place, _scaled(eye, -1.0))
+    x, y, away = (dot(arm, axis) for axis in _axes(camera, eye, target))
+    if away >= 0.0:
+        return None
+    scale = 0.5 * size[1] / (math.tan(math.radians(camera.fov) / 2.0) * -away)
+    return 0.5 * size[0] + scale * x, 0.5 * size[1] - scale * y
+
+
+def _corners(light):
+    """Return the names of the parameters that say where a light stands."""
+    if "corners" in light.values:
+        count = 3 + light.kind.parameter("corners").choices.index(light.values["corners"])
+        return "abcdef"[:count]
+    return ("position",) if "position" in light.values else ()
+
+
 def _handle(light):
     """Return the name of the parameter by which a light is moved, or None."""
     for parameter in light.kind.parameters:

@@ -7,7 +7,7 @@ assets/bench/page.html, with its looks.
 import os
 from html import escape
 
-from . import files, plates, study
+from . import chart, files, plates, study
 from .bilingual import TEXT, name_of, said, word
 from .figures import alone, figure, series
 from .notation import number
@@ -34,9 +34,8 @@ def html(report, pictures):
         for one in report["studies"]
     )
     frame = frame.replace("{{facts}}", _facts(report["made"])).replace("{{contents}}", contents)
-    return frame.replace(
-        "{{studies}}", "\n".join(_study(one, pictures) for one in report["studies"])
-    )
+    studies = [_study(one, pictures) for one in report["studies"]]
+    return frame.replace("{{studies}}", "\n".join((chart.shapes(), *studies)))
 
 
 def _gist(one):

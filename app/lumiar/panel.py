@@ -20,6 +20,7 @@ class State:
     """What the panel remembers that is no part of the scene.
 
     chosen    index of the object whose model is shown
+    lamp      index of the light that was last touched, which Alt moves
     home      the scene as it was opened, or None
     message   the line of the last mistake, until something succeeds
     gesture   a number while a widget is held, another one for each time: a key for History
@@ -36,6 +37,7 @@ class State:
 
     lang: str = ""
     chosen: int = 0
+    lamp: int = 0
     home: object = None
     message: str = ""
     gesture: int | None = None

@@ -8,7 +8,7 @@ import numpy as np
 
 from . import image, scale
 
-QUALITY = 80  # of WebP
+QUALITY = 70  # of WebP
 
 
 class Plate(NamedTuple):

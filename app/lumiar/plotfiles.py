@@ -1,15 +1,23 @@
 """A plot of the window as a file: its numbers as a table, or a picture of it for a report."""
 
+import contextlib
 import itertools
 import math
 import os
+import pickle
+import subprocess
+import sys
+import tempfile
 from typing import NamedTuple
 
 import numpy as np
 
 from . import __version__, facing, gonio, measuring, panels, tables
 from .captions import TEXT
+from .errors import one_line
+from .files import write_whole
 
+PATIENCE = 20.0  # seconds for a picture that is being made when the window closes
 LOBES = ("polar", "curve", "lobe")  # the plots of f
 
 
@@ -81,6 +89,46 @@ def png(drawn, lang):
     if drawn.kind in LOBES:
         shown = [one._replace(light=round(one.light, 1)) for one in shown]
     return plots.single(drawn.kind, title, under, shown, _points(drawn), lang)
+
+
+class Painting:
+    """A picture of a plot that a process of its own writes, while the window goes on; release it.
+
+    Raises OSError where no process can be started.
+    """
+
+    def __init__(self, drawn, lang, path):
+        self.path = path
+        self._told, self._said = (tempfile.TemporaryFile() for _ in "io")  # noqa: SIM115  by release
+        pickle.dump((drawn, lang, path), self._told)
+        self._told.seek(0)
+        environment = {k: v for k, v in os.environ.items() if k != "LUMIAR_SUPERVISOR"}
+        command = [sys.executable, "-c", "from lumiar import plotfiles; plotfiles.paint()"]
+        pipes = {"stdin": self._told, "stdout": subprocess.DEVNULL, "stderr": self._said}
+        self._child = subprocess.Popen(command, env=environment, **pipes)
+
+    def release(self):
+        """Wait for it, but not for ever."""
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            self._child.wait(PATIENCE)
+        self._child.kill()
+        self._child.wait()
+        self._told.close()
+        self._said.close()
+
+    def end(self):
+        """Return None while it goes on, then "", or the line of why there is no picture."""
+        if self._child.poll() is None:
+            return None
+        self._said.seek(0)
+        said = self._said.read().decode("utf-8", "replace").strip()
+        return one_line(said.rpartition("\n")[2] or "no reason given") * bool(self._child.poll())
+
+
+def paint():
+    """Write the picture that a Painting asks for on the standard input."""
+    drawn, lang, path = pickle.load(sys.stdin.buffer)  # from ourselves
+    write_whole(path, [png(drawn, lang)])
 
 
 def unused(ending):

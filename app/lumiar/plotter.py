@@ -14,6 +14,7 @@ from . import (
     plotfiles,
     readout,
     solids,
+    units,
 )
 from .difference import LUMINANCE
 from .errors import Mistake, one_line
@@ -21,6 +22,7 @@ from .sight import Sight
 
 LIGHT = 45.0  # degrees from the normal, until another angle is asked for
 GRAZING = 89.0
+LOOK = 0.1  # seconds between two looks at what is being made
 CALM = 0.35  # seconds without a change after which a scale may shrink
 KINDS = ("polar", "curve", "lobe", "albedo", "fresnel")
 RED, GREEN = (1.0, 0.55, 0.5, 1.0), (0.6, 0.9, 0.6, 1.0)
@@ -29,8 +31,9 @@ RED, GREEN = (1.0, 0.55, 0.5, 1.0), (0.6, 0.9, 0.6, 1.0)
 class Plots:
     """A tool of the drawer; see there. drawn is the plotfiles.Drawn that is shown.
 
-    kind is one of KINDS; others holds (Shader, values or None, label or "") of each model that the
-    chosen object's is compared with, None for values of its own.
+    kind is one of KINDS; painting is the plotfiles.Painting that is being made, or None; others
+    holds (Shader, values or None, label or "") of each model that the chosen object's is compared
+    with, None for values of its own.
     """
 
     def __init__(self, now):
@@ -41,10 +44,12 @@ class Plots:
         self._same, self._log = False, None
         self._scale, self._scaled, self._changed = None, (), 0.0
         self._held = False
-        self._said = ("", RED)
+        self._said, self.painting = ("", RED), None
 
     def release(self):
-        """Free what is on the card, and what ImPlot has."""
+        """Free what is on the card, and what ImPlot has; what is being saved is waited for."""
+        if self.painting:
+            self.painting.release()
         self._bench.release()
         self._charts.release()
         self._solids.release()
@@ -72,7 +77,7 @@ class Plots:
         self._tell(models, words["plots"])
         self._ask_light(now.shown, models[0], words["plots"])
         self._list(models, words["plots"])
-        self._save(now.state.lang, words["plots"])
+        self._save(now, words["plots"])
         now.state.restless = now.state.restless or self._bench.busy
         if self._held:
             now.state.wake = min(now.state.wake, self._changed + CALM)
@@ -159,7 +164,7 @@ class Plots:
             _lines(words["at"].format(*sight.pixel, *angles))
             f, off = self.value(models[0]), abs(self.drawn.aim.angle(L)[1])
             if f is not None:
-                _large(f"f(L, V) = {readout.number(float(f @ LUMINANCE))} sr⁻¹")
+                _large(f"f(L, V) = {readout.number(units.luminance(f) / units.EFFICACY)} sr⁻¹")
             if L[2] < 0.0 and not models[0].shader.transmits:
                 _lines(words["below"], labels.DIM)
             elif self.kind in ("polar", "curve") and off >= 1.0:
@@ -230,10 +235,10 @@ class Plots:
         if any(values is None for _, values, _ in self.others):
             self._same = imgui.checkbox(words["same"], self._same)[1]
 
-    def _save(self, lang, words):
+    def _save(self, now, words):
         """Offer the plot as a table and as a picture."""
         imgui.separator()
-        imgui.begin_disabled(not self.drawn.shown)
+        imgui.begin_disabled(not self.drawn.shown or self.painting is not None)
         pressed = ""
         for name in ("copy", "csv", "png"):
             if imgui.button(words[name]):
@@ -247,14 +252,28 @@ class Plots:
         elif pressed:
             path = plotfiles.unused(f".{pressed}")
             try:
-                make = {"csv": lambda: plotfiles.csv(self.drawn).encode()}
-                make["png"] = lambda: plotfiles.png(self.drawn, lang)
-                files.write_whole(path, [make[pressed]()])
-                self._said = (words["saved"].format(path), GREEN)
-            except (Mistake, OSError, ImportError) as error:
+                if pressed == "png":
+                    self.painting = plotfiles.Painting(self.drawn, now.state.lang, path)
+                    self._said = (words["saving"].format(path), labels.DIM)
+                else:
+                    files.write_whole(path, [plotfiles.csv(self.drawn).encode()])
+                    self._said = (words["saved"].format(path), GREEN)
+            except OSError as error:
                 self._said = (one_line(error), RED)
+        self._paint(now, words)
         if self._said[0]:
             _lines(*self._said)
+
+    def _paint(self, now, words):
+        """See whether the picture that is being made is there."""
+        fault = self.painting.end() if self.painting else None
+        if fault is not None:
+            saved = (words["saved"].format(self.painting.path), GREEN)
+            self._said = (fault, RED) if fault else saved
+            self.painting.release()
+            self.painting = None
+        elif self.painting:
+            now.state.wake = min(now.state.wake, now.time + LOOK)
 
 
 def _label(text):

@@ -8,12 +8,13 @@ class Pointer:
 
     picked  pixel (x, y) of the active picture that was clicked, or None
     left    where the pictures begin, in pixels of the window
+    place   of the mouse, in the same
     """
 
     def __init__(self, stage, beside):
         self._stage, self._beside, self._hands = stage, beside, Hands()
         self.picked, self.left = None, 0
-        self._place, self._pressed, self._index = (0.0, 0.0), None, 0
+        self.place, self._pressed, self._index = (0.0, 0.0), None, 0
 
     @property
     def index(self):
@@ -28,23 +29,25 @@ class Pointer:
         inside = all(0 <= x < side for x, side in zip(place, size, strict=True))
         return place if inside and not self._hands.holds else None
 
-    def press(self, button, held):
-        """Take that a button is pressed; held: the modifier keys."""
+    def press(self, button, held, lamp=0, grabbed=False):
+        """Take that a button is pressed; held: the modifier keys; the rest as `Hands.press`."""
         self._index = self.index
-        self._hands.press(button, held, self._stage.places[self._index][3])
-        self._pressed = self._place if button == LEFT and not held else None
+        height = self._stage.places[self._index][3]
+        self._hands.press(button, held, height, lamp, grabbed)
+        picks = button == LEFT and not held and not grabbed
+        self._pressed = self.place if picks else None
 
     def release(self):
         """Take that a button is let go: without a drag it has picked a pixel."""
         self._hands.release()
-        if self._pressed and self._pressed == self._place:
+        if self._pressed and self._pressed == self.place:
             self._stage.active = self._index
             self.picked = self._stage.within(*self._local)
         self._pressed = None
 
     def move(self, place):
         """Take a place of the mouse in pixels of the window."""
-        self._place = place
+        self.place = place
         self._turn(*self._hands.move(place))
 
     def wheel(self, notches):
@@ -54,7 +57,7 @@ class Pointer:
 
     @property
     def _local(self):
-        return self._place[0] - self.left, self._place[1]
+        return self.place[0] - self.left, self.place[1]
 
     def _turn(self, turn, key):
         """Do what the mouse does to the picture under it, to all that are shown."""

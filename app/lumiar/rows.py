@@ -97,18 +97,18 @@ def about(shader):
 def block(name, draw):
     """Return what `draw()` returns; None, and a blank of its height, where it would be unseen.
 
-    ImGui itself keeps how high it was, and whether something in it is held: that is always drawn.
+    ImGui itself keeps how high it was. While anything is held, what was drawn goes on being so.
     """
-    kept, key, held = imgui.get_state_storage(), imgui.get_id(name), imgui.get_id(f"{name} held")
+    kept, key, drawn = imgui.get_state_storage(), imgui.get_id(name), imgui.get_id(f"{name} drawn")
     high, top = kept.get_float(key, 0.0), imgui.get_cursor_pos_y()
-    if high and not kept.get_bool(held, False) and not imgui.is_rect_visible((1.0, high)):
+    held = imgui.is_any_item_active() and kept.get_bool(drawn, False)
+    unseen = high and not held and not imgui.is_rect_visible((1.0, high))
+    kept.set_bool(drawn, not unseen)
+    if unseen:
         imgui.dummy((1.0, high - imgui.get_style().item_spacing.y))
         return None
-    imgui.begin_group()
     got = draw()
-    imgui.end_group()
     kept.set_float(key, imgui.get_cursor_pos_y() - top)
-    kept.set_bool(held, imgui.is_item_active())
     return got
 
 

@@ -113,11 +113,18 @@ def lights(scene, state, words):
     gone = None
     for i, one in enumerate(scene.lights):
         flags = imgui.TreeNodeFlags_.default_open if i == 0 else 0
-        if imgui.tree_node_ex(f"{rows.named(i, one.name or one.kind.name)}###{i}", flags):
+        mark = "   ◉" if i == state.lamp and len(scene.lights) > 1 else ""
+        name = rows.named(i, one.name or one.kind.name)
+        top = imgui.get_cursor_screen_pos().y
+        if imgui.tree_node_ex(f"{name}{mark}###{i}", flags):
             draw = functools.partial(_light, scene, state, words, i)
             changed, removed = rows.block("light", draw) or (scene, False)
             scene, gone = changed, i if removed else gone
             imgui.tree_pop()
+        held = imgui.HoveredFlags_.allow_when_blocked_by_active_item
+        touched = imgui.is_mouse_clicked(0) and imgui.is_window_hovered(held)
+        if touched and top <= imgui.get_mouse_pos().y < imgui.get_cursor_screen_pos().y:
+            state.lamp = i
     imgui.set_next_item_width(-1.0)
     got = labels.choice("add", words["add"], _kinds, words["light hint"])
     if got is not None:

@@ -5,7 +5,7 @@ import time
 from . import banner, facing
 from .errors import Mistake
 
-PROMPT = 0.012  # seconds that a look may take while the mouse moves
+REST = 3.0  # times what a look took, until the next one: the mouse must not wait for it
 
 
 class Sight:
@@ -17,7 +17,7 @@ class Sight:
     def __init__(self):
         self.pixel, self.facing, self.follows = None, None, True
         self._picked, self._pinned = None, None
-        self._looked, self._wanted, self._took = None, None, 0.0
+        self._looked, self._next = None, 0.0
 
     def look(self, now):
         """Look at what a tool is told of, see `drawer.Now`, and put a ring around it.
@@ -60,18 +60,18 @@ class Sight:
         wanted = (now.shown._replace(objects=bare), pixel)
         if wanted == self._looked:
             return False
-        if self._took > PROMPT and wanted != self._wanted:  # until the mouse stands still
-            self._wanted, now.state.restless = wanted, True
+        if now.time < self._next and pixel != self._pinned:
+            now.state.wake = min(now.state.wake, self._next)
             return False
         self._looked = wanted
         return True
 
     def _seen(self, now, pixel):
-        first, began = self._took == 0.0, time.perf_counter()
+        now.stage.context.finish()  # what is still being drawn is no part of the look
+        began = time.perf_counter()
         try:
             found = facing.seen(now.shown, pixel, now.stage.renderer)
         except Mistake:
             found = None
-        spent = time.perf_counter() - began
-        self._took = 1e-6 if first else spent  # the first one compiled
+        self._next = now.time + REST * (time.perf_counter() - began)
         return found

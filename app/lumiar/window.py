@@ -5,7 +5,7 @@ import time
 
 from imgui_bundle import imgui
 
-from . import banner, gallery, labels, opening, panel, presenter, snapshot, words
+from . import banner, gallery, handles, labels, opening, panel, presenter, snapshot, words
 from .desktop import LETTERS, Desktop, glfw
 from .document import Document
 from .drawer import TOOLS, Drawer, Now
@@ -40,7 +40,7 @@ class Viewer:
         panel.prepare(LETTERS * self.desktop.scale)
         imgui.get_style().scale_all_sizes(self.desktop.scale)
         self.state = panel.State(lang=lang, tools=tuple(TOOLS))
-        self.presenter = presenter.Presenter(self.overlay)
+        self.presenter, self.handles = presenter.Presenter(self.overlay), handles.Handles()
         self.presents = bool(self.document.stop)
         self.fault, self.notice, self.titled = "", ("", 0.0), ""
         self.moved = self.awake = 0.0
@@ -176,6 +176,8 @@ class Viewer:
         done = self.notice[0] if now < self.notice[1] and not fault else ""
         points = imgui.get_io().display_size.x / self.desktop.size[0]
         area = (left * points, size[0] * points, size[1] * points)
+        marked = None if self.presents or self.stage.mode != "one" else self.stage.shown
+        self.handles.draw(marked, self.stage.view, left, self.state.lamp)
         banner.draw(area, f"{1000.0 * self.stage.cost:.1f} ms", caption, fault, done)
         gallery.draw(
             self.stage, document.beside.said(self.state.lang), left, points, self.state.lang
@@ -195,7 +197,9 @@ class Viewer:
 
     def _on_press(self, button, held):
         if not self.desktop.io.want_capture_mouse:
-            self.pointer.press(button, held)
+            grabbed = self.handles.at(self.pointer.place)
+            self.state.lamp = self.state.lamp if grabbed is None else grabbed
+            self.pointer.press(button, held, self.state.lamp, grabbed is not None)
 
     def _on_release(self, _):
         self.pointer.release()
@@ -233,6 +237,8 @@ class Viewer:
             document.turn(_TURNS[key])
         elif key == glfw.KEY_SPACE:
             document.play()
+        elif key == glfw.KEY_L:
+            self.handles.shown = not self.handles.shown
         elif key == glfw.KEY_P:
             self.presents = not self.presents
         elif key in _TOOL_KEYS:

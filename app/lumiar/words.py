@@ -43,6 +43,7 @@ TEXT = {
             "probe": "Probe",
             "editor": "GLSL",
             "film": "Film",
+            "study": "Study",
         },
         "views": {view: view for view in ("front", "right", "back", "left", "top")},
         "names": {"image": "picture", "ev100": "EV100"},
@@ -88,6 +89,7 @@ TEXT = {
             "probe": "Sonda",
             "editor": "GLSL",
             "film": "Filme",
+            "study": "Estudo",
         },
         "views": {
             "front": "frente",
