@@ -3,8 +3,8 @@
 import os
 import time
 
+from . import compare, opening
 from . import lesson as lessons
-from . import opening
 from .beside import Beside, Edit
 from .clock import Clock
 from .errors import Mistake, one_line
@@ -260,6 +260,8 @@ class Document:
     def _begin(self):
         self.clock.stop()
         self.home = self.pages[self.page][1]
+        if self.stops:
+            self.beside.home = compare.shots(self.stop.shots)
         if self.history and not self.stops:
             self.history.push(Edit(self.home, self.beside.comparison))
         else:
@@ -289,8 +291,7 @@ class Document:
 def _pages(scene):
     """Return (stops, pages) of a Scene or of a Lesson."""
     stops = lessons.stops(scene) if isinstance(scene, lessons.Lesson) else []
-    shots = [stop.shot for stop in stops]
-    return stops, [(shot.caption, shot.scene) for shot in shots] or opening.pages(scene)
+    return stops, [({}, stop.step.scene) for stop in stops] or opening.pages(scene)
 
 
 def uses_time(scene):
