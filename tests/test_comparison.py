@@ -238,6 +238,13 @@ def test_a_moving_difference_has_colours_and_no_numbers(viewer):
     assert viewer.stage.deviation is None and not viewer.stage.busy
 
 
+def test_an_idle_comparison_draws_nothing(viewer):
+    show(viewer, PAIR._replace(mode="difference"))
+    rest(viewer)
+    viewer.awake = 0.0
+    assert not any(viewer.frame() for _ in range(5))
+
+
 def test_alike_pictures_do_not_differ(viewer, look):
     show(viewer, Comparison("difference", (Variant(), Variant())))
     rest(viewer)
@@ -246,10 +253,7 @@ def test_alike_pictures_do_not_differ(viewer, look):
 
 
 def test_only_what_changes_is_drawn_again(viewer, monkeypatch):
-    show(
-        viewer, compare.added(compare.added(Comparison(), Variant((("tone", "aces"),))), Variant())
-    )
-    show(viewer, compare.added(PAIR, Variant(kept=viewer.scene)))
+    show(viewer, compare.added(PAIR._replace(mode="grid"), Variant(kept=viewer.scene)))
     drawn = []
     show_scene = viewer.stage.renderer.show
     monkeypatch.setattr(
