@@ -337,6 +337,15 @@ def test_a_screenshot_reopens_as_what_was_compared(viewer, wanted, tmp_path, mon
         assert (top == pixels(viewer, viewer.stage.deviation)).all()
 
 
+def test_a_screenshot_is_of_what_was_asked_for_last(viewer, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    show(viewer, compare.rates())
+    viewer.document.beside.show(PAIR._replace(mode="difference"))
+    viewer.desktop.key(glfw.KEY_F12, glfw.PRESS, 0)
+    viewer.frame()
+    assert len(Scene.load("lumiar-001.png").panels) == 2 and not viewer.fault
+
+
 def test_a_screenshot_of_what_no_sheet_can_say(viewer, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     show(viewer, compare.added(Comparison(), Variant(kept=plain().set(light="point"))))
