@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from . import compare, contrast, opening
 from .compare import Comparison, Variant
+from .comparing import TEXT
 from .errors import Mistake, one_line
 from .scene import Scene
 
@@ -80,7 +81,9 @@ class Beside:
             compare.LETTERS, self.comparison.shown, self.pictures, strict=False
         ):
             line = one.caption.get(lang) or one.caption.get("en", "")
-            found.append(line if variant.caption and not variant.kept else f"{letter}   {line}")
+            line = line or ("", TEXT[lang]["compare"]["kept"])[bool(variant.kept)]
+            named = variant.caption and not variant.kept
+            found.append(line if named else f"{letter}   {line}".rstrip())
         return found
 
     def stale(self):
