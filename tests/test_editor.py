@@ -8,7 +8,7 @@ import pytest
 from hand import Spy
 from test_window import MODEL, plain, press, save, settle, shown
 
-from lumiar import arguments, editor, verbs
+from lumiar import arguments, editor, gallery, verbs
 from lumiar.desktop import glfw
 from lumiar.document import Document
 from lumiar.errors import Mistake
@@ -109,9 +109,11 @@ def test_what_is_typed_is_drawn_before_it_is_saved(viewer, own):
     viewer.document.gate.edit(str(own), drawn.replace("k * tint", "tint"), 0.0)
     rest(viewer)
     assert (shown(viewer) != before).any() and own.read_text() == MODEL % ""
+    assert "own.glsl" in gallery.caption(viewer.document, "en")
     assert typed(viewer) == drawn.replace("k * tint", "tint")
     press(viewer, glfw.KEY_S, CTRL)
     assert own.read_text() == typed(viewer) and not viewer.document.texts.drafts
+    assert "own.glsl" not in gallery.caption(viewer.document, "en")
 
 
 def test_a_mistake_is_marked_on_its_line_while_the_last_picture_stays(viewer, own):

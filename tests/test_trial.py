@@ -91,11 +91,28 @@ def test_a_model_that_crashes_named_at_the_start_opens_and_recovers(own):
         settle(viewer)
         neutral = shown(viewer)
         assert f"{own}: crashes the driver" in viewer.document.fault and neutral.any()
+        assert viewer.document.history.able == ()  # no way back to it
         press(viewer, glfw.KEY_F7)
         assert viewer.drawer.tool.path == str(own)
         press(viewer, glfw.KEY_F7)
         save(viewer, own, MODEL % "")
         assert not viewer.document.fault and (shown(viewer) != neutral).any()
+        assert viewer.document.history.able == ()
+
+
+def test_reading_all_again_tries_again(own, monkeypatch):
+    with opened(own) as viewer:
+        settle(viewer)
+        monkeypatch.setattr(viewer.trial, "_patience", -1.0)
+        monkeypatch.setattr(viewer.trial, "expect", lambda *_: None)
+        save(viewer, own, MODEL % " * 0.5")
+        assert "too slow" in viewer.document.fault
+        monkeypatch.setattr(viewer.trial, "_patience", 1e9)
+        save(viewer, own, MODEL % " * 0.5")
+        assert "too slow" in viewer.document.fault  # what is known is not tried again
+        press(viewer, glfw.KEY_F5)
+        assert not viewer.document.fault
+        assert viewer.scene.objects[0].model.text == MODEL % " * 0.5"
 
 
 def test_what_is_dropped_or_typed_is_tried_first_too(own):

@@ -60,6 +60,7 @@ class Document:
         except Mistake as mistake:
             load, name, path = self._load or (lambda: opening.reread(scene)), self.name, self.path
             self.gate.fresh.clear()
+            self.history = None  # none of its steps may be taken again
             self.open(Scene.default())
             self._expect(load, name, path, mistake)
 
@@ -195,8 +196,7 @@ class Document:
         What is being saved is tried already while it settles.
         """
         self.gate.foresee(self.watch.moving, self.beside)
-        decided = self.gate.settle(self.beside)
-        if not decided:
+        if not (decided := self.gate.settle(self.beside)):
             return None
         self._renew()
         return self.gate.names(path for path in decided if path not in self.texts.drafts)
@@ -232,13 +232,13 @@ class Document:
         try:
             is_lesson = lessons.is_lesson(self.path)
             stops, pages = _pages((lessons.load if is_lesson else Scene.load)(self.path))
-            self.gate.admit([pages[min(self.page, len(pages) - 1)][1]], self.scene)
+            page = min(self.page, len(pages) - 1)
+            self.gate.admit([pages[page][1]], self.scene)
         except Mistake as mistake:
             self.texts.faults[self.path] = one_line(mistake)
             return
         self.texts.faults.pop(self.path, None)
-        self.stops, self.pages = stops, pages
-        self.page = min(self.page, len(self.pages) - 1)
+        self.stops, self.pages, self.page = stops, pages, page
         self._begin()
 
     def _expect(self, load, name, path, mistake=None):
@@ -248,7 +248,7 @@ class Document:
         if not mistake:
             try:
                 self.open(load(), name, path)
-                self._waiting = None
+                self.history, self._waiting = History(self.history.scene), None
                 return
             except Mistake as again:
                 mistake = again

@@ -256,6 +256,7 @@ class Viewer:
             self.drawer.toggle(_TOOL_KEYS[key])
         elif key == glfw.KEY_F5:
             self.stage.restart()
+            self.trial.forget()
             self._reload(None)
         elif key == glfw.KEY_F12:
             self._screenshot()
