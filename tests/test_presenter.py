@@ -2,9 +2,9 @@
 
 import pytest
 from hand import PANEL, Spy
-from test_window import MIDDLE, drag, plain, press, save, screen, settle, shown
+from test_window import MIDDLE, captured, drag, plain, press, save, screen, settle, shown
 
-from lumiar import lesson, presenter, settings
+from lumiar import banner, hands, lesson, presenter, settings
 from lumiar.desktop import glfw
 from lumiar.window import Viewer
 
@@ -48,7 +48,7 @@ def look(monkeypatch):
     def looked(one):
         spy = Spy()
         with monkeypatch.context() as patch:
-            for module in (*PANEL, presenter):
+            for module in (*PANEL, presenter, banner):
                 patch.setattr(module, "imgui", spy)
             one.due = 1
             one.frame()
@@ -58,7 +58,8 @@ def look(monkeypatch):
 
 
 def gloss(one):
-    return one.scene.objects[0].values["shininess"]
+    """Return the exponents of the pictures that are shown."""
+    return [easel.shown.objects[0].values["shininess"] for easel in one.stage.easels]
 
 
 def rows(spy):
@@ -69,22 +70,41 @@ def rows(spy):
 
 def test_the_question_stands_before_the_answer(viewer, look):
     seen, pictures = [], []
-    for _ in range(5):
+    for _ in range(4):
         said = look(viewer).said
         seen.append((gloss(viewer), "Wider or narrower?" in said, "Narrower." in said))
-        pictures.append(shown(viewer).tobytes())
+        pictures.append(screen(viewer).tobytes())
         press(viewer, glfw.KEY_PAGE_DOWN)
-    assert seen[:3] == [(10, True, False), (50, True, False), (100, False, True)]
-    assert seen[3] == seen[4] and not any(seen[3][1:])  # after the last one there is none
-    assert len(set(pictures)) == 4
-    for key in (glfw.KEY_LEFT, glfw.KEY_LEFT, glfw.KEY_RIGHT, glfw.KEY_PAGE_UP, glfw.KEY_PAGE_UP):
+    assert seen[:2] == [([10, 50], True, False), ([10, 50, 100], False, True)]
+    assert seen[2] == seen[3] and not any(seen[2][1:])  # after the last one there is none
+    assert len(seen[2][0]) == 1 and len(set(pictures)) >= 3
+    for key in (glfw.KEY_LEFT, glfw.KEY_RIGHT, glfw.KEY_PAGE_UP, glfw.KEY_PAGE_UP):
         press(viewer, key)
-    assert shown(viewer).tobytes() == pictures[0]
+    assert gloss(viewer) == [10, 50] and viewer.document.page == 0
+
+
+def test_the_pictures_of_a_step_stand_side_by_side_with_their_captions(viewer, look):
+    press(viewer, glfw.KEY_PAGE_DOWN)
+    assert {"ten", "fifty", "hundred"} <= {*look(viewer).said}
+    (left, _), seen = viewer._area(), screen(viewer)
+    for shot, easel, place in zip(
+        viewer.document.stop.shots, viewer.stage.easels, viewer.stage.places, strict=True
+    ):
+        x, y, wide, high = place
+        true = captured(hands.framed(shot.scene, (wide, high)))
+        rows = slice(high // 2, high - 60)  # captions cover the rest
+        assert (seen[y : y + high, left + x : left + x + wide][rows] == true[rows]).all()
+        assert easel.shown.objects == shot.scene.objects
+    corners = [place[:2] for place in viewer.stage.places]
+    assert len({*corners}) == 3
 
 
 def test_the_panel_has_the_sliders_of_the_step_alone(viewer, look):
-    wanted = ["shininess", "camera.azimuth", "model", "direction", "exposure"]
+    wanted = ["camera.azimuth", "model", "direction", "exposure", "0", "1"]
     assert rows(look(viewer)) == wanted
+    assert {"0/shininess/shininess/##value", "1/shininess/shininess/##value"} <= {
+        *look(viewer).places
+    }
     before = viewer.state.width
     press(viewer, glfw.KEY_P)
     spy = look(viewer)
@@ -95,23 +115,38 @@ def test_the_panel_has_the_sliders_of_the_step_alone(viewer, look):
     assert rows(look(viewer)) == wanted
 
 
-def test_a_slider_acts_on_the_shot_and_a_step_begins_anew(viewer, look):
-    picture, first = shown(viewer), viewer.scene
-    left, top, right, bottom = look(viewer).places["shininess/shininess/##value"]
+def slide(one, look, name):
+    """Drag a slider to nine tenths of its way."""
+    left, top, right, bottom = look(one).places[name]
     middle = (top + bottom) / 2.0
-    drag(viewer, (left + 0.5 * (right - left), middle), (left + 0.9 * (right - left), middle))
-    moved = gloss(viewer)
-    assert moved > 50 and (shown(viewer) != picture).any()
-    assert viewer.scene == settings.changed(first, "shininess", moved)
+    drag(one, (left + 0.5 * (right - left), middle), (left + 0.9 * (right - left), middle))
+
+
+def test_a_slider_moves_all_pictures_but_what_sets_them_apart(viewer, look):
+    first = viewer.scene
+    slide(viewer, look, "exposure/exposure/##value")
+    moved = viewer.scene.exposure
+    assert moved > 1.0 and viewer.scene == settings.changed(first, "exposure", moved)
+    assert [easel.shown.exposure for easel in viewer.stage.easels] == [moved] * 2
+    assert gloss(viewer) == [10, 50] and "ten" in look(viewer).said
     press(viewer, glfw.KEY_Z, glfw.MOD_CONTROL)
-    assert viewer.scene == first and (shown(viewer) == picture).all()
+    assert viewer.scene == first and [e.shown.exposure for e in viewer.stage.easels] == [0.0] * 2
+    viewer.desktop.key(glfw.KEY_LEFT_CONTROL, glfw.RELEASE, 0)
+    slide(viewer, look, "1/shininess/shininess/##value")
+    ten, other = gloss(viewer)
+    assert ten == 10 and other > 50 and viewer.scene == first
+    said = look(viewer).said
+    assert "ten" in said and "fifty" not in said  # a caption that no longer holds
+    assert f"B   shininess = {other:.6g}" in said
+    press(viewer, glfw.KEY_Z, glfw.MOD_CONTROL)
+    assert gloss(viewer) == [10, 50] and "fifty" in look(viewer).said
     press(viewer, glfw.KEY_Z, glfw.MOD_CONTROL | glfw.MOD_SHIFT)
-    assert gloss(viewer) == moved
+    assert gloss(viewer) == [10, other]
     press(viewer, glfw.KEY_PAGE_DOWN)
     press(viewer, glfw.KEY_Z, glfw.MOD_CONTROL)
-    assert gloss(viewer) == 50  # no way back into another shot
+    assert gloss(viewer) == [10, 50, 100]  # no way back into another stop
     press(viewer, glfw.KEY_PAGE_UP)
-    assert viewer.scene == first
+    assert gloss(viewer) == [10, 50] and viewer.scene == first
 
 
 def test_the_language_is_changed_in_the_panel(viewer, look):
@@ -165,7 +200,7 @@ def test_a_saved_lesson_is_read_again_and_a_broken_one_leaves_the_last(viewer, l
     press(viewer, glfw.KEY_PAGE_DOWN)
     path = tmp_path / "own.toml"
     save(viewer, path, LESSON % "In other words.")
-    assert gloss(viewer) == 50 and "In other words." in look(viewer).said
+    assert gloss(viewer) == [10, 50, 100] and "In other words." in look(viewer).said
     save(viewer, path, LESSON.replace("sliders = [", "slider = [") % "Broken.")
     assert f"{path}:" in viewer.document.fault and "In other words." in look(viewer).said
 
@@ -174,10 +209,14 @@ def test_every_stop_of_the_shipped_lessons_can_be_shown(look):
     for name in lesson.shipped():
         with Viewer(lesson.load(name), "pt", name, "", True, (320, 240)) as viewer:
             for stop in viewer.document.stops:
-                spy = look(viewer)
-                assert [key for key in rows(spy) if key in stop.step.sliders] == [
-                    *stop.step.sliders
+                paths = [path.split("/") for path in look(viewer).places if "/" in path]
+                assert [easel.good for easel in viewer.stage.easels] == [
+                    shot.scene for shot in stop.shots
                 ]
+                for key in stop.step.sliders:  # one row, or one in each picture
+                    own = all(key in dict(shot.values) for shot in stop.shots)
+                    found = {path[0] for path in paths if key in path[:2]}
+                    assert found == ({str(i) for i in range(len(stop.shots))} if own else {key})
                 assert not viewer.stage.fault and not viewer.state.message
                 viewer.document.turn(1)
 

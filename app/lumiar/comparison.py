@@ -2,7 +2,7 @@
 
 from imgui_bundle import imgui
 
-from . import catalog, compare, geometry, labels, notation, panel, sections, settings
+from . import catalog, compare, geometry, labels, notation, sections, settings
 from .comparing import TEXT
 from .editing import PICTURE
 from .parts import LIGHT, RATES
@@ -28,7 +28,7 @@ class Comparing:
         imgui.text_disabled(words["drop"])
         imgui.pop_text_wrap_pos()
         if comparison is not before:
-            now.document.beside.show(comparison, panel.gesture(now.state))
+            now.document.beside.show(comparison, labels.gesture(now.state))
             now.state.restless = True
         return now.scene
 
@@ -197,6 +197,8 @@ def _menu(name, scene, now, words):
 def _keys(scene):
     """Return the keys of values, as `settings.changed` takes them, that a picture may differ by."""
     keys = dict.fromkeys(name for one in scene.objects for name in one.values)
+    shapes = [geometry.shape(one.mesh) for one in scene.objects]
+    keys |= dict.fromkeys(f"mesh.{name}" for shape in shapes for name in shape)
     keys |= dict.fromkeys(("rotation",) if scene.objects else ())
     for i, one in enumerate(scene.lights, 1):
         own = settings.own_keys(one.kind)

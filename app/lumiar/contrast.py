@@ -4,7 +4,7 @@ import os
 
 from . import captions, notation, settings
 from .errors import Mistake
-from .parts import CAMERA, OBJECT, SCENE
+from .parts import CAMERA, LIGHT_TEXTS, OBJECT, SCENE
 from .words import TEXT
 
 TOLD = 3  # values that a line names
@@ -63,10 +63,12 @@ def value(scene, key):
     if found:
         one, given, lamp, _ = found
         return given, notation.unit(lamp.unit if lamp and one.tinted and lamp.unit else one.unit)
-    objects, _, name = settings.addressed(scene, key)
+    objects, lamps, name = settings.addressed(scene, key)
     if name in ("mesh", "model") and len(objects):
         one = scene.objects[objects[0]]
         return one.mesh if name == "mesh" else one.model.name, ""
+    if name in LIGHT_TEXTS and len(lamps):
+        return getattr(scene.lights[lamps[0]], name), ""
     if key == "light":
         return ", ".join(os.path.basename(one.kind.name) for one in scene.lights), ""
     return None, ""
@@ -81,8 +83,8 @@ def _line(scene, given, keys, lang):
         if shown is None:
             continue
         first, _, name = key.rpartition(".")
-        first = "" if first == "camera" else first.replace("object.", "").replace(".", " ")
-        first = first.replace("light", TEXT[lang]["names"].get("light", "light"))
+        first = "" if first in ("camera", "mesh") else first.removeprefix("object.")
+        first = first.replace("light.", TEXT[lang]["names"].get("light", "light") + " ")
         if isinstance(shown, bool):
             shown = captions.TEXT[lang]["sheet"]["yes" if shown else "no"]
         elif name in ("mesh", "model"):

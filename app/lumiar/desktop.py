@@ -42,6 +42,11 @@ _MODIFIERS = (
     (glfw.MOD_ALT, imgui.Key.mod_alt),
     (glfw.MOD_SUPER, imgui.Key.mod_super),
 )
+_CURSORS = {
+    int(imgui.MouseCursor_.text_input): glfw.IBEAM_CURSOR,
+    int(imgui.MouseCursor_.resize_ew): glfw.HRESIZE_CURSOR,
+    int(imgui.MouseCursor_.resize_ns): glfw.VRESIZE_CURSOR,
+}
 
 
 class Desktop:
@@ -55,6 +60,7 @@ class Desktop:
     def __init__(self, size, title, hidden=False):
         self._keys = _key_map()
         self.events, self._windowed, self._last = [], None, time.monotonic()
+        self._cursors = {None: None}
         self.window = _open(size, title, hidden)
         try:
             self.context = window_context()
@@ -136,7 +142,11 @@ class Desktop:
         imgui.new_frame()
 
     def show(self):
-        """Bring what was drawn to the screen."""
+        """Bring what was drawn to the screen, and the mouse in the shape that suits its place."""
+        shape = _CURSORS.get(int(imgui.get_mouse_cursor()))
+        if shape not in self._cursors:
+            self._cursors[shape] = glfw.create_standard_cursor(shape)
+        glfw.set_cursor(self.window, self._cursors[shape])
         glfw.swap_buffers(self.window)
 
     def toggle_full_screen(self):

@@ -4,8 +4,8 @@ import os
 import re
 import time
 
+from . import compare, opening
 from . import lesson as lessons
-from . import opening
 from .beside import Beside, Edit
 from .clock import Clock
 from .errors import Mistake, one_line
@@ -254,12 +254,13 @@ class Document:
     def _take(self, scene):
         """Take the pages of a Scene or of a Lesson."""
         self.stops = lessons.stops(scene) if isinstance(scene, lessons.Lesson) else []
-        shots = [stop.shot for stop in self.stops]
-        self.pages = [(shot.caption, shot.scene) for shot in shots] or opening.pages(scene)
+        self.pages = [({}, stop.step.scene) for stop in self.stops] or opening.pages(scene)
 
     def _begin(self):
         self.clock.stop()
         self.home = self.pages[self.page][1]
+        if self.stops:
+            self.beside.home = compare.shots(self.stop.shots)
         if self.history and not self.stops:
             self.history.push(Edit(self.home, self.beside.comparison))
         else:

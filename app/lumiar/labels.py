@@ -126,6 +126,15 @@ def pick(key, current, options):
     return chosen
 
 
+def gesture(state):
+    """Return the key for History of what is done now, None while no widget is held."""
+    held = imgui.is_any_item_active()
+    if held and state.gesture is None:
+        state.holds += 1
+    state.gesture = state.holds if held else None
+    return state.gesture
+
+
 def _tip(tip):
     if imgui.begin_tooltip():
         imgui.push_text_wrap_pos(28.0 * imgui.get_font_size())

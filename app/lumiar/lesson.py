@@ -70,23 +70,22 @@ class Lesson(NamedTuple):
 
 
 class Stop(NamedTuple):
-    """One halt on the way through a lesson: a step, its part ("", "ask", "reveal"), a Shot."""
+    """One halt on the way through a lesson: a step, its part ("", "ask", "reveal"), its Shots."""
 
     step: Step
     part: str
-    shot: Shot
+    shots: tuple[Shot, ...]
     number: int  # of the step, from 1
     steps: int
 
 
 def stops(lesson):
-    """Return the Stops of a Lesson: one for each shot, of an answer only the last one."""
+    """Return the Stops of a Lesson: one for each step, a second one for its answer."""
     found, count = [], len(lesson.steps)
     for number, step in enumerate(lesson.steps, 1):
-        part = "ask" if step.ask else ""
-        found += [Stop(step, part, shot, number, count) for shot in step.shown]
+        found.append(Stop(step, "ask" if step.ask else "", step.shown, number, count))
         if step.ask:
-            found.append(Stop(step, "reveal", step.shots[-1], number, count))
+            found.append(Stop(step, "reveal", step.shots, number, count))
     return found
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from imgui_bundle import imgui
 
-from . import scenefile, sections, shelf
+from . import labels, scenefile, sections, shelf
 from .files import ASSETS
 from .words import TEXT
 
@@ -98,17 +98,8 @@ def draw(scene, state, parts=ALL):
     for section in parts:
         scene = section(scene, state, words)
     imgui.end()
-    gesture(state)
+    labels.gesture(state)
     return scene
-
-
-def gesture(state):
-    """Return the key for History of what is done now, None while no widget is held."""
-    held = imgui.is_any_item_active()
-    if held and state.gesture is None:
-        state.holds += 1
-    state.gesture = state.holds if held else None
-    return state.gesture
 
 
 def _top(state, words):

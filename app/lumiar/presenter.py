@@ -2,7 +2,7 @@
 
 from imgui_bundle import imgui
 
-from . import captions, sections
+from . import captions, compare, labels, sections
 from .labels import BRIGHT, DIM
 from .picture import in_language
 
@@ -20,12 +20,12 @@ class Presenter:
     def __init__(self, images):
         self._images, self._formula, self._drawn = images, None, None
         self._shown, self._share = None, 1.0
-        self.stop = None
+        self.stop = self._beside = None
 
-    def parts(self, stop):
-        """Return what `panel.draw` draws for a Stop, or for None."""
-        self.stop = stop
-        return (self._step,) if stop else (sections.model,)
+    def parts(self, document):
+        """Return what `panel.draw` draws for the Stop of a Document, or where it has none."""
+        self.stop, self._beside = document.stop, document.beside
+        return (self._step,) if self.stop else (sections.model,)
 
     def _step(self, scene, state, words):
         step, part, lang = self.stop.step, self.stop.part, state.lang
@@ -47,13 +47,29 @@ class Presenter:
             text = in_language(step.ask if part == "ask" else step.reveal, lang)
             _box(captions.TEXT[lang]["lesson"][part], _COLOURS[part], text)
         imgui.dummy((1.0, 0.3 * base))
-        scene = sections.some(scene, state, words, step.sliders)
+        common = [key for key in step.sliders if compare.common(self._beside.comparison, key)]
+        scene = sections.some(scene, state, words, common)
+        self._own(state, words, [key for key in step.sliders if key not in common])
         imgui.push_font(None, 0.6 * self._share * base)
         imgui.text_colored(DIM, in_language(step.source, lang))
         imgui.pop_font()
         imgui.pop_text_wrap_pos()
         imgui.pop_font()
         return scene
+
+    def _own(self, state, words, keys):
+        """Draw a row in each picture for values of which every picture has one of its own."""
+        comparison, pictures = self._beside.comparison, self._beside.pictures
+        for i, (variant, one) in enumerate(zip(comparison.shown, pictures, strict=True)):
+            if not keys or not one.scene:
+                continue
+            imgui.push_id(i)
+            imgui.text_colored(DIM, in_language(one.caption, state.lang))
+            after = sections.some(one.scene, state, words, keys)
+            if after is not one.scene:
+                comparison = compare.replaced(comparison, i, compare.edited(variant, after))
+            imgui.pop_id()
+        self._beside.show(comparison, labels.gesture(state))
 
     def _write_formula(self, step, lang, letters):
         """Write the formula as a picture, or as text where none can be made."""

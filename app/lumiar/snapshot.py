@@ -12,7 +12,7 @@ def write(stage, document, lang, path):
     above its scale. Where no file can say the scenes of all, the first one is carried. Raises
     Mistake; OSError when the disk refuses.
     """
-    if stage.mode == "one":
+    if len(stage.easels) == 1:
         picture.write(stage.shown, path, stage.renderer)
         return
     shown = [one.shown for one in stage.easels if one.shown]

@@ -5,7 +5,7 @@ import time
 
 from imgui_bundle import imgui
 
-from . import banner, gallery, handles, opening, panel, presenter, snapshot, words
+from . import banner, gallery, handles, labels, opening, panel, presenter, snapshot, words
 from .desktop import LETTERS, Desktop, glfw
 from .document import Document
 from .drawer import TOOLS, Drawer, Now
@@ -114,10 +114,10 @@ class Viewer:
             self.state.view, self.state.tool = self.stage.view, self.drawer.open
             self.state.home = self.document.home
             self.state.able, self.state.runs = self.document.history.able, self.document.clock.runs
-            parts = self.presenter.parts(self.document.stop) if self.presents else panel.ALL
+            parts = self.presenter.parts(self.document) if self.presents else panel.ALL
             self._push(panel.draw(self.scene, self.state, parts), self.state.gesture)
             self._wish()
-        self._push(self.drawer.draw(self._now(now)), panel.gesture(self.state))
+        self._push(self.drawer.draw(self._now(now)), labels.gesture(self.state))
         self.due = max(self.due, 2 * self.state.restless)
         self._notice_step()
         left, size = self._area()

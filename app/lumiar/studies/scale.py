@@ -26,7 +26,7 @@ COUNTS = {  # case: how many of it, in full and quickly
     "objects": ([1, 4, 16, 64, 256], [1, 16, 64]),
 }
 OURS, FLOOR = "phong", "floor"
-OPEN = 0.5  # width of an exponent's interval that tells nothing
+OPEN, WIDE = 0.5, 2.0  # widths of intervals that tell nothing: of an exponent, of a ratio
 STORED = ("pixels", "triangles")  # what takes memory
 PORTUGUESE = {"triangles": "triângulos", "lights": "luzes", "objects": "objetos"}
 WORDS = {
@@ -162,10 +162,11 @@ def said(case, found):
     """Yield the Remark that the points of a case support, none where noise leaves too much open."""
     ours, base = ([p for p in found if p.variant.startswith(w)] for w in (OURS, FLOOR))
     low, high = power(ours)
-    if high - low > OPEN:
+    least, most = ours[-1].low / base[-1].high, ours[-1].high / base[-1].low
+    if high - low > OPEN or not 0.0 < most < WIDE * least:
         return
     facts = {"most": f"{round(ours[-1].parameters['count']):,}", "power": _between(low, high)}
-    facts["ratio"] = _between(ours[-1].low / base[-1].high, ours[-1].high / base[-1].low)
+    facts["ratio"] = _between(least, most)
     swapped = str.maketrans(",.", ".,")
     portuguese = {name: text.translate(swapped) for name, text in facts.items()}
     yield Remark(
