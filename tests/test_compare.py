@@ -76,7 +76,8 @@ def test_pictures_come_and_go():
     pair = compare.added(Comparison(), Variant((("tone", "aces"),)))
     assert pair.mode == "split" and compare.without(pair, 0) == Comparison()
     assert compare.swapped(pair).variants == pair.variants[::-1]
-    assert compare.added(pair, Variant()).mode == "grid"
+    assert compare.added(pair, Variant()).variants == (Variant(), Variant())  # the other is B
+    assert len(compare.added(pair._replace(mode="grid"), Variant()).variants) == 3
     lone = compare.in_mode(Comparison(), "difference", PLAIN)
     assert lone.variants[1].kept is PLAIN and len(lone.shown) == 2
     assert compare.in_mode(lone, "one", PLAIN).shown == (Variant(),)

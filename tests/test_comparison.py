@@ -238,6 +238,13 @@ def test_a_moving_difference_has_colours_and_no_numbers(viewer):
     assert viewer.stage.deviation is None and not viewer.stage.busy
 
 
+def test_an_idle_comparison_draws_nothing(viewer):
+    show(viewer, PAIR._replace(mode="difference"))
+    rest(viewer)
+    viewer.awake = 0.0
+    assert not any(viewer.frame() for _ in range(5))
+
+
 def test_alike_pictures_do_not_differ(viewer, look):
     show(viewer, Comparison("difference", (Variant(), Variant())))
     rest(viewer)
@@ -246,10 +253,7 @@ def test_alike_pictures_do_not_differ(viewer, look):
 
 
 def test_only_what_changes_is_drawn_again(viewer, monkeypatch):
-    show(
-        viewer, compare.added(compare.added(Comparison(), Variant((("tone", "aces"),))), Variant())
-    )
-    show(viewer, compare.added(PAIR, Variant(kept=viewer.scene)))
+    show(viewer, compare.added(PAIR._replace(mode="grid"), Variant(kept=viewer.scene)))
     drawn = []
     show_scene = viewer.stage.renderer.show
     monkeypatch.setattr(
@@ -331,6 +335,15 @@ def test_a_screenshot_reopens_as_what_was_compared(viewer, wanted, tmp_path, mon
         with Image.open("lumiar-001.png") as saved:
             top = np.asarray(saved)[: viewer._area()[1][1], :]
         assert (top == pixels(viewer, viewer.stage.deviation)).all()
+
+
+def test_a_screenshot_is_of_what_was_asked_for_last(viewer, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    show(viewer, compare.rates())
+    viewer.document.beside.show(PAIR._replace(mode="difference"))
+    viewer.desktop.key(glfw.KEY_F12, glfw.PRESS, 0)
+    viewer.frame()
+    assert len(Scene.load("lumiar-001.png").panels) == 2 and not viewer.fault
 
 
 def test_a_screenshot_of_what_no_sheet_can_say(viewer, tmp_path, monkeypatch):

@@ -129,7 +129,7 @@ def test_a_broken_save_and_no_size_leave_the_sheet_alive(viewer, tmp_path, monke
     viewer._push(viewer.scene.changed("model", str(path)))
     tool = open_sheet(viewer)
     save(viewer, path, OFF.replace("albedo *", "nope *"))
-    assert viewer.stage.fault and "Lambert" in said(viewer, monkeypatch)
+    assert viewer.document.fault and "Lambert" in said(viewer, monkeypatch)
     glfw.set_window_size(viewer.desktop.window, 0, 0)
     viewer.frame()
     glfw.set_window_size(viewer.desktop.window, *SIZE)

@@ -15,7 +15,7 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "files portuguese",
     "parameter cache supervise polygons reference_terms camera tomltext driverlog glsltext "
     "difference contract image sheet gonio captions spectrum claims arguments factors scale "
-    "occluders history words notation watch phrases banner clock timing study bilingual "
+    "occluders history words notation watch phrases banner trial clock timing study bilingual "
     "colorimetry judge comparing",
     "catalog mesh reference_energy tables panels units estimates card legend slide readout labels "
     "advice chart codearea plates",
@@ -26,7 +26,7 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "scenefile stock hands handles targets facing",
     "scene editing contrast pointer sight charts",
     "renderer lesson opening texts solids rows compare",
-    "picture options measure views report beside estimate editor sections shelf",
+    "picture options measure views report beside estimate editor gate tryout sections shelf",
     "hostile measuring falsecolour reflectance deck presenter stage film stopwatch panel "
     "document gallery",
     "examine probe bench curves plotfiles comparison snapshot",

@@ -11,6 +11,7 @@ from PIL import Image
 from test_window import drag, plain, press, screen, settle
 
 from lumiar import (
+    catalog,
     charts,
     curves,
     facing,
@@ -289,8 +290,8 @@ def test_what_is_awkward_is_survived(viewer, tmp_path, monkeypatch):
     path.write_text(text % "nope")
     viewer._reload([str(path)])
     settle(viewer)
-    assert viewer.stage.fault and (tool(viewer).drawn.shown[0].f == good).all()
-    tool(viewer).others.append((viewer.scene.objects[0].model, None, "broken"))
+    assert viewer.document.fault and (tool(viewer).drawn.shown[0].f == good).all()
+    tool(viewer).others.append((catalog.read("model", str(path)), None, "broken"))
     settle(viewer)
     assert any(f"{path}:2: " in line for line in spied(viewer, monkeypatch).said)
     assert len(tool(viewer).drawn.shown) == 1

@@ -100,7 +100,7 @@ def test_a_model_that_does_not_compile_leaves_the_last_reading(viewer, monkeypat
     assert tool(viewer).found["lights"][0]["f_1_sr"] > 0.5
     save(viewer, path, text % "nope")
     said(viewer, monkeypatch)
-    assert viewer.stage.fault and tool(viewer).found["lights"][0]["f_1_sr"] > 0.5
+    assert viewer.document.fault and tool(viewer).found["lights"][0]["f_1_sr"] > 0.5
     save(viewer, path, text % "0.25")
     said(viewer, monkeypatch)
     assert 0.2 < tool(viewer).found["lights"][0]["f_1_sr"] < 0.5

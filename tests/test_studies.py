@@ -50,6 +50,8 @@ def test_a_power_of_a_rounded_cosine_loses_an_exponent_s_worth_of_digits(found):
         naive = errors[f"blinn {m:g}", "naive", "relative"]
         assert m * 2.0**-25 < naive < 4.0 * m * 2.0**-24
         assert errors[f"blinn {m:g}", "stable", "relative"] < naive / 30.0
+    for m in (10.0, 100.0, 1e4, 1e6):  # Phong's gap takes no more than rounding from what is given
+        assert errors[f"phong {m:g}", "stable", "relative"] < study.FLOAT
     assert "not to be told" in remarks[0].en and "não se pode dizer" in remarks[0].pt
 
 

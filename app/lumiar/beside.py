@@ -1,10 +1,12 @@
 """What is shown beside the scene that is open, and what the mouse and files do to all of it."""
 
+import contextlib
 import os
 from typing import NamedTuple
 
 from . import compare, contrast, opening
 from .compare import Comparison, Variant
+from .comparing import TEXT
 from .errors import Mistake, one_line
 from .scene import Scene
 
@@ -58,6 +60,14 @@ class Beside:
         others = [one.scene or self._last.get(i) for i, one in enumerate(self.pictures)]
         return [self._document.scene, *filter(None, others)]
 
+    def made(self, edit):
+        """Return the scenes of an Edit: the one edited, and those of new pictures."""
+        found = [edit.scene]
+        for variant in edit.comparison.shown if edit.comparison is not self._known[1] else ():
+            with contextlib.suppress(Mistake, OSError):  # told in its picture
+                found.append(compare.scene_of(variant, edit.scene))
+        return found
+
     @property
     def files(self):
         """The paths that the values of pictures name, also of those that cannot be made."""
@@ -71,7 +81,9 @@ class Beside:
             compare.LETTERS, self.comparison.shown, self.pictures, strict=False
         ):
             line = one.caption.get(lang) or one.caption.get("en", "")
-            found.append(line if variant.caption and not variant.kept else f"{letter}   {line}")
+            line = line or ("", TEXT[lang]["compare"]["kept"])[bool(variant.kept)]
+            named = variant.caption and not variant.kept
+            found.append(line if named else f"{letter}   {line}".rstrip())
         return found
 
     def stale(self):
@@ -117,5 +129,5 @@ class Beside:
         except (Mistake, OSError) as mistake:
             return None, one_line(mistake)
         memory = self._memory.setdefault(index, {})
-        self._last[index] = opening.renewed(one, self._document.texts.fresh, memory)
+        self._last[index] = opening.renewed(one, self._document.gate.fresh, memory)
         return self._last[index], ""

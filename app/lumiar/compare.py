@@ -61,13 +61,16 @@ def shots(given):
 
 
 def added(comparison, variant):
-    """Return a Comparison with one more picture; the same where there are MOST already."""
-    if comparison.mode == "one":
+    """Return a Comparison with one more picture, which takes the place of B where two are shown.
+
+    The same where there are MOST already.
+    """
+    mode, variants = comparison
+    if mode == "one":
         return Comparison("split", (Variant(), variant))
-    variants = (*comparison.variants, variant)
-    if len(variants) > MOST:
-        return comparison
-    return Comparison(comparison.mode if len(variants) == 2 else "grid", variants)
+    if mode != "grid":
+        return Comparison(mode, (variants[0], variant, *variants[2:]))
+    return Comparison(mode, (*variants, variant)) if len(variants) < MOST else comparison
 
 
 def without(comparison, index):

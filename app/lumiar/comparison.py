@@ -53,7 +53,8 @@ def _begin(comparison, now, words):
         return compare.rates()
     imgui.set_next_item_width(-1.0)
     comparison = _models(comparison, now, words)
-    full = comparison.mode != "one" and len(comparison.variants) >= compare.MOST
+    count = len(comparison.variants) if comparison.mode == "grid" else 1
+    full = count >= compare.MOST
     imgui.begin_disabled(full)
     if imgui.button(words["same but"], wide):
         imgui.open_popup("same but")
@@ -61,7 +62,6 @@ def _begin(comparison, now, words):
     found = _menu("same but", now.scene, now, words)
     if found:
         comparison = compare.added(comparison, compare.Variant((found,)))
-    count = 1 if comparison.mode == "one" else len(comparison.variants)
     letter = compare.LETTERS[min(count, compare.MOST - 1)]
     if imgui.button(words["keep"].format(letter), wide):
         comparison = compare.added(comparison, compare.Variant(kept=now.scene))
@@ -73,7 +73,9 @@ def _begin(comparison, now, words):
 def _models(comparison, now, words):
     """Draw the list of models, of which several can be ticked."""
     keys = [dict(one.values).get("model") for one in comparison.variants]
-    chosen = [key for key in keys if key] if all(keys) else []
+    alone = comparison.mode == "one" or not all(keys)
+    now_shown = [one.model.name for one in now.scene.objects[:1]]
+    chosen = now_shown if alone else keys
     if not imgui.begin_combo("##models", words["models"], imgui.ComboFlags_.height_large):
         return comparison
     for name in catalog.names("model"):
@@ -83,9 +85,9 @@ def _models(comparison, now, words):
         changed, _ = imgui.checkbox(name, ticked)
         imgui.end_disabled()
         if changed:
-            first = chosen or [now.scene.objects[0].model.name][: len(now.scene.objects)]
-            left = [one for one in first if one != name]
-            comparison = compare.models(left if ticked else [*left, name])
+            left = [one for one in chosen if one != name]
+            left = left if ticked else [*left, name]
+            comparison = compare.models(left) if left else comparison
     imgui.end_combo()
     return comparison
 

@@ -1,7 +1,6 @@
 """What is open in the window: pages of scenes, their history, and the files they are made from."""
 
 import os
-import re
 import time
 
 from . import compare, opening
@@ -9,14 +8,12 @@ from . import lesson as lessons
 from .beside import Beside, Edit
 from .clock import Clock
 from .errors import Mistake, one_line
+from .gate import Gate
 from .history import History
 from .parts import SCENE
 from .scene import Scene
-from .texts import Texts, ships
+from .texts import Texts, at_fault
 from .watch import Watch
-
-QUIET = 0.3  # seconds without a key before what is typed is looked at
-_AT_FAULT = re.compile(r"(.+?\.(?:glsl|toml)):")
 
 
 class Document:
@@ -28,15 +25,19 @@ class Document:
     stops   of a lesson, one for each page, else []
     beside  what is shown beside the scene
     texts   what is edited and not saved, and what is wrong in which file; restored: as it was left
+    gate    what comes into the scene of what was edited
+
+    load() returns the scene once more, should it have to be opened again.
     """
 
-    def __init__(self, scene, name="", path="", restored=False):
-        self.watch, self.texts, self._memory = Watch(), Texts(restored), {}
+    def __init__(self, scene, name="", path="", restored=False, load=None):
+        self.watch, self.texts, self._load = Watch(), Texts(restored), load
+        self.gate = Gate(self.texts)
         self.clock, self._running = Clock(SCENE["time"].high), (None, None)
-        self.history, self._known, self._typed, self._waiting = None, (None, None), {}, None
+        self.history, self._known, self._waiting = None, (None, None), None
         self.beside = Beside(self)
         self.open(scene, name, path)
-        self._read(self.texts.drafts)
+        self.read(self.texts.drafts)
 
     @staticmethod
     def expecting(load, name, path, mistake):
@@ -45,11 +46,22 @@ class Document:
         load() returns the scene. Until then the default scene is in its place. Raises the mistake
         where it names no file that could be edited.
         """
-        if not _at_fault(mistake):
+        if not at_fault(mistake):
             raise mistake
         document = Document(Scene.default())
         document._expect(load, name, path, mistake)
         return document
+
+    def guard(self, trial):
+        """Have a trial.Trial draw what is edited before it comes into the scene, now and later."""
+        self.gate.trial, scene = trial, self.history.scene.scene
+        try:
+            self.gate.admit(self.beside.made(self.history.scene))
+        except Mistake as mistake:
+            load, name, path = self._load or (lambda: opening.reread(scene)), self.name, self.path
+            self.gate.fresh.clear()
+            self.open(Scene.default())
+            self._expect(load, name, path, mistake)
 
     @property
     def fault(self):
@@ -74,7 +86,7 @@ class Document:
     def scene(self):
         """The scene as it is, its shaders as their files are, its time where the clock runs."""
         if self._known[0] is not self.history.scene.scene:
-            now = opening.renewed(self.history.scene.scene, self.texts.fresh, self._memory)
+            now = self.gate.renewed(self.history.scene.scene)
             self._known = (self.history.scene.scene, now)
         if not self.clock.runs:
             return self._known[1]
@@ -95,15 +107,17 @@ class Document:
 
     def open(self, scene, name="", path=""):
         """Show a scene, or the first picture of a sheet, instead of what was shown."""
-        self._take(scene)
-        self.page = 0
+        stops, pages = _pages(scene)
+        self.gate.admit([pages[0][1]], self.history and self.scene)
+        self.stops, self.pages, self.page = stops, pages, 0
         self.name, self.path = name, path
         self._begin()
 
     def turn(self, step):
         """Show the picture of the sheet that is so many further on, if there is one."""
-        if 0 <= self.page + step < len(self.pages):
-            self.page += step
+        page = self.page + step
+        if 0 <= page < len(self.pages) and self.gate.admits([self.pages[page][1]], self.scene):
+            self.page = page
             self._begin()
 
     def push(self, scene, key=None):
@@ -113,11 +127,11 @@ class Document:
 
     def step(self, edit, key=None):
         """Make an Edit the one that is; see `History.push`."""
-        self.texts.faults.pop("", None)
-        if self.clock.runs and edit.scene.time != self.scene.time:  # set by hand
-            self.clock.start(time.monotonic(), edit.scene.time)
-        self.history.push(edit, key)
-        self._follow()
+        if self.gate.admits(self.beside.made(edit), self.scene):
+            if self.clock.runs and edit.scene.time != self.scene.time:  # set by hand
+                self.clock.start(time.monotonic(), edit.scene.time)
+            self.history.push(edit, key)
+            self._follow()
 
     def play(self):
         """Let the time of the scene run, or stop it where it is, as a step to undo."""
@@ -160,7 +174,6 @@ class Document:
                 self.open(scene, os.path.splitext(os.path.basename(path))[0], path)
             else:
                 self.push(scene)
-            self.texts.faults.pop("", None)
         except (Mistake, OSError) as mistake:
             self.texts.faults[""] = one_line(mistake)
 
@@ -173,52 +186,43 @@ class Document:
             self._load_again()
         files = self.texts.saved(paths)
         self.texts.faults.pop("", None)
-        self._read(files)
-        faults = self.texts.faults
-        return sorted(os.path.basename(path) for path in files if path not in faults)
+        self.read(files)
+        return self.gate.names(files)
 
-    def edit(self, path, text, now):
-        """Take what is typed for a file, without saving it; now in seconds."""
-        self.texts.edit(path, text)
-        self._typed[path] = now
+    def settle(self):
+        """Take what was tried by now; return the names of files that came into the scene, or None.
+
+        What is being saved is tried already while it settles.
+        """
+        self.gate.foresee(self.watch.moving, self.beside)
+        decided = self.gate.settle(self.beside)
+        if not decided:
+            return None
+        self._renew()
+        return self.gate.names(path for path in decided if path not in self.texts.drafts)
 
     def look(self, now, at_once=False):
         """Have what was typed in the scene, once it rests; return whether there was anything."""
-        quiet = [path for path, at in self._typed.items() if at_once or now - at >= QUIET]
-        for path in quiet:
-            del self._typed[path]
-        if quiet:
-            self._read(quiet)
+        quiet = self.gate.quiet(now, at_once)
+        self.read(quiet)
         return bool(quiet)
-
-    def revert(self, path):
-        """Have a file as it is saved, not as edited."""
-        self.texts.forget(path)
-        self._read([path])
-
-    def take_up(self, path):
-        """Have a file as edited when the last window was closed."""
-        self.texts.take(path)
-        self._read([path])
 
     def rename(self, path, copy):
         """Have the scene use a copy, just written, of the file of a model or a light."""
         self.texts.forget(path)
-        fresh = self.texts.fresh.pop(path, None)
         scene = opening.renamed(self.scene, path, copy)
+        self.gate.rename(path, copy)
         self._known = (None, None)
-        if fresh:
-            self.texts.fresh[copy] = fresh._replace(name=copy, path=copy)
         self.push(scene)
-        self._read([copy])
+        self.read([copy])
 
-    def _read(self, paths):
-        """Read those Shaders of the scene again that are files of such paths, or include them."""
-        texts = self.texts
-        for shader in {one.path: one for one in self._shaders}.values():
-            if shader.path in paths or not texts.libraries([shader]).isdisjoint(paths):
-                made = texts.read(shader, paths)
-                texts.fresh |= {made.path: made} if made else {}
+    def read(self, paths):
+        """Read files again, as edited or as saved; those that include them, too."""
+        if paths:
+            self.gate.read(paths, self.beside)
+            self._renew()
+
+    def _renew(self):
         self._known = (None, None)
         self.beside.stale()
         self._follow()
@@ -227,11 +231,13 @@ class Document:
         """Read the file of the scene again."""
         try:
             is_lesson = lessons.is_lesson(self.path)
-            self._take((lessons.load if is_lesson else Scene.load)(self.path))
+            stops, pages = _pages((lessons.load if is_lesson else Scene.load)(self.path))
+            self.gate.admit([pages[min(self.page, len(pages) - 1)][1]], self.scene)
         except Mistake as mistake:
             self.texts.faults[self.path] = one_line(mistake)
             return
         self.texts.faults.pop(self.path, None)
+        self.stops, self.pages = stops, pages
         self.page = min(self.page, len(self.pages) - 1)
         self._begin()
 
@@ -246,15 +252,10 @@ class Document:
                 return
             except Mistake as again:
                 mistake = again
-        file = _at_fault(mistake) or self._waiting[-1]
+        file = at_fault(mistake) or (self._waiting or [path])[-1]
         self.texts.faults[file] = one_line(mistake)
         self._waiting = (load, name, path, file)
         self._follow()
-
-    def _take(self, scene):
-        """Take the pages of a Scene or of a Lesson."""
-        self.stops = lessons.stops(scene) if isinstance(scene, lessons.Lesson) else []
-        self.pages = [({}, stop.step.scene) for stop in self.stops] or opening.pages(scene)
 
     def _begin(self):
         self.clock.stop()
@@ -282,18 +283,17 @@ class Document:
     def _follow(self):
         before = self.watch.paths
         self.watch.follow(self._followed)
-        back = [path for path in self.texts.fresh if path in self.watch.paths - before]
+        back = [path for path in self.gate.fresh if path in self.watch.paths - before]
         if back:  # they may have been saved while the scene had no use for them
-            self._read(back)
+            self.read(back)
+
+
+def _pages(scene):
+    """Return (stops, pages) of a Scene or of a Lesson."""
+    stops = lessons.stops(scene) if isinstance(scene, lessons.Lesson) else []
+    return stops, [({}, stop.step.scene) for stop in stops] or opening.pages(scene)
 
 
 def uses_time(scene):
     """Return whether a model or a light of a scene changes with its time."""
     return any(p.widget == "time" for shader in opening.shaders(scene) for p in shader.parameters)
-
-
-def _at_fault(mistake):
-    """Return the path of the file that a Mistake names, or None."""
-    found = _AT_FAULT.match(str(mistake))
-    path = os.path.abspath(found.group(1)) if found else ""
-    return path if os.path.isfile(path) and not ships(path) else None

@@ -62,13 +62,14 @@ class Editor:
         """Draw the text, and what is wrong below it; take what is typed."""
         texts, path = now.document.texts, self.path
         if path not in self.sheets:
+            now.document.gate.trial.start()  # while it is read
             self.sheets[path] = Code(text, path.endswith(".glsl"))
         sheet, fault = self.sheets[path], texts.faults.get(path, now.fault)
         sheet.mark(_at(fault, path))
         room = imgui.get_content_region_avail().y - (4.4 * imgui.get_font_size() if fault else 0.0)
         typed = sheet.draw(text, room, self._fixed(now))
         if typed is not None:
-            now.document.edit(path, typed, now.time)
+            now.document.gate.edit(path, typed, now.time)
         self._foot(fault, words)
 
     def _follow(self, now):
@@ -121,7 +122,7 @@ class Editor:
             self._ask("new", words)
         imgui.same_line()
         if _button(words["revert"], words["revert tip"], edited):
-            document.revert(self.path)
+            self._read(document, document.texts.forget)
         self._say(said, _DIM)
         return self._name_field(now, words) if self._asked else None
 
@@ -199,17 +200,22 @@ class Editor:
         if path in texts.moved:
             self._say(words["moved"], _RED)
             if _button(words["theirs"], ""):
-                document.revert(path)
+                self._read(document, texts.forget)
             imgui.same_line()
             if _button(words["mine"], ""):
                 texts.keep(path)
         elif texts.left(path):
             self._say(words["left"], _DIM)
             if _button(words["take"], ""):
-                document.take_up(path)
+                self._read(document, texts.take)
             imgui.same_line()
             if _button(words["decline"], ""):
                 texts.decline(path)
+
+    def _read(self, document, change):
+        """Have another text for the file, which change(path) sees to."""
+        change(self.path)
+        document.read([self.path])
 
     def _foot(self, fault, words):
         """Say what is wrong, below the text; a click goes there."""

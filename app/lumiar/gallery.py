@@ -41,12 +41,15 @@ def draw(stage, captions, left, points, lang):
             _caption(i, text, (left * points + x + 0.5 * wide, y), 0.5, wide, high)
 
 
-def _caption(index, text, place, pivot, width, height):
-    """Write what a picture is at its upper edge, in letters that suit its size."""
+def _caption(index, text, place, pivot, width, height, typical=0.0):
+    """Write what a picture is at its upper edge, in letters that suit its size.
+
+    typical: its width where it changes all the time.
+    """
     if not text:
         return
     base = imgui.get_style().font_size_base
-    imgui.push_font(None, max(base, min(height / 17.0, width / 17.0, 1.9 * base)))
+    imgui.push_font(None, max(base, min(height / 17.0, (typical or width) / 17.0, 1.9 * base)))
     gap = 0.4 * imgui.get_font_size() * (1.0 - 2.0 * pivot)
     most = max(4.0 * imgui.get_font_size(), width - 2.0 * imgui.get_font_size())
     banner.box(
@@ -69,7 +72,7 @@ def _split(stage, captions, left, points):
     for i, (begin, end) in enumerate(((start, x), (x, start + width))):
         if end - begin > 6.0 * grab:
             edge = end if i else begin
-            _caption(i, captions[i], (edge, 0.0), float(i), end - begin, height)
+            _caption(i, captions[i], (edge, 0.0), float(i), end - begin, height, 0.5 * width)
     imgui.set_next_window_pos((x - grab, 0.0))
     imgui.set_next_window_size((2.0 * grab, height))
     imgui.push_style_var(imgui.StyleVar_.window_padding, (0.0, 0.0))

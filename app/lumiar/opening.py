@@ -111,6 +111,13 @@ def _renewed(one, field, shader, memory):
     return one._replace(**{field: shader}, values=values)
 
 
+def reread(scene):
+    """Return the scene with all its shaders as their files are; raise Mistake."""
+    kinds = {shader.path: (shader.kind, shader.name) for shader in shaders(scene)}
+    fresh = {path: catalog.read(*kind, edited=True) for path, kind in kinds.items()}
+    return renewed(scene, fresh, {})
+
+
 def renamed(scene, path, copy):
     """Return the scene with the Shaders of one path as those of another, which holds the same."""
 

@@ -1,5 +1,7 @@
 """What F12 writes: the pictures in the window as a PNG that carries their scene."""
 
+import math
+
 from . import compare, files, hands, image, legend, picture, scenefile, sheet
 from .comparing import TEXT
 from .gallery import numbers
@@ -12,6 +14,7 @@ def write(stage, document, lang, path):
     above its scale. Where no file can say the scenes of all, the first one is carried. Raises
     Mistake; OSError when the disk refuses.
     """
+    stage.draw(document.beside, document.scene, stage.area, math.inf)  # in full, as at rest
     if len(stage.easels) == 1:
         picture.write(stage.shown, path, stage.renderer)
         return
@@ -42,5 +45,7 @@ def _difference(stage, said, words):
     """Return (size, bytes of sRGB) of a difference above its scale and its numbers."""
     one = stage.deviation
     pixels = one.canvas.read(components=3)
-    title = f"{',  '.join(said)}; {words['title']}: {numbers(one, words)}"
+    found = numbers(one, words).removesuffix("FLIP …")
+    lines = (", ".join(said), words["title"], found)
+    title = "  ".join(" ".join(line.split()) for line in lines)  # two blanks end a line there
     return legend.with_bar(one.canvas.size, pixels, title, one.ruler)

@@ -118,6 +118,7 @@ class Stage:
     active  the index of the one that was clicked last, which shown, view and canvas are of
     places  (left, top, width, height) of each, in pixels of the area that they fill
     deviation  the Deviation of the two of which the difference is shown, else None
+    area    the (width, height) in pixels that they fill together
     share   of the width where one ends and the other begins, of two on either side of a line
     """
 
@@ -126,7 +127,7 @@ class Stage:
         self.easels, self.places, self.active = [Easel(context)], [(0, 0, 1, 1)], 0
         self.mode, self.share = "one", 0.5
         self.good, self.cost = None, 0.0
-        self.deviation, self._area = None, (1, 1)
+        self.deviation, self.area = None, (1, 1)
 
     @property
     def shown(self):
@@ -254,7 +255,7 @@ class Stage:
         """Bring the pictures into the window, from a pixel of its width on."""
         screen = self.context.screen
         textures = [one.canvas.color_attachments[0] for one in self.easels]
-        width, height = self._area
+        width, height = self.area
         if self.mode == "split":
             line = round(self.share * width)
             for texture, begin, end in zip(textures, (0, line), (line, width), strict=True):
@@ -283,4 +284,4 @@ class Stage:
         while len(self.easels) < count:
             self.easels.append(Easel(self.context))
         self.active, self.mode = min(self.active, count - 1), mode
-        self.places, self._area = compare.places(mode, count, size), size
+        self.places, self.area = compare.places(mode, count, size), size

@@ -3,6 +3,7 @@
 import contextlib
 import json
 import os
+import re
 from typing import NamedTuple
 
 from . import catalog, compose
@@ -11,6 +12,7 @@ from .files import GLSL, cache_folder, read_text, write_whole
 
 KEPT = 50  # texts that were not saved, and are put by
 _LIMIT = 64 << 20  # bytes of them
+_AT_FAULT = re.compile(r"(.+?\.(?:glsl|toml)):")
 
 
 class Draft(NamedTuple):
@@ -23,14 +25,13 @@ class Draft(NamedTuple):
 class Texts:
     """What is known of GLSL files beside what the scene says.
 
-    fresh   {path: Shader}: those that were read again or edited since
     drafts  {path: Draft}
     faults  {path: line}: what is wrong in a file, until it is put right
     moved   paths of drafts whose file was saved by another program since
     """
 
     def __init__(self, restored=False):
-        self.fresh, self.drafts, self.faults, self.moved = {}, {}, {}, set()
+        self.drafts, self.faults, self.moved = {}, {}, set()
         self._left, self._mine = kept(), set()
         self._saved, self._included, self._readings = {}, {}, 0
         if restored:
@@ -99,24 +100,27 @@ class Texts:
         return [path for path in paths if path not in self.drafts or not self._is_moved(path)]
 
     def read(self, shader, again=()):
-        """Return a Shader as its file or its draft is now, or None, and why in faults.
+        """Return a Shader as its file or its draft is now, or None, and why not in faults.
 
         again holds paths of files that were saved since and that it may include.
         """
+        try:
+            return self.parsed(shader, again)
+        except Mistake as mistake:
+            self.faults[shader.path] = one_line(mistake)
+            return None
+
+    def parsed(self, shader, again=()):
+        """Return a Shader as its file or its draft is now; raise Mistake."""
         path, kind, name = shader.path, shader.kind, shader.name
         count = shader.library
         if not self.libraries([shader]).isdisjoint(again):
             self._readings += 1
             count = self._readings
-        try:
-            if path in self.drafts:
-                made = catalog.parse(kind, name, path, self.drafts[path].text, edited=True)
-            else:
-                made = catalog.read(kind, name, edited=True)
-        except Mistake as mistake:
-            self.faults[path] = one_line(mistake)
-            return None
-        self.faults.pop(path, None)
+        if path in self.drafts:
+            made = catalog.parse(kind, name, path, self.drafts[path].text, edited=True)
+        else:
+            made = catalog.read(kind, name, edited=True)
         return made._replace(library=count)
 
     def libraries(self, shaders):
@@ -169,6 +173,13 @@ class Texts:
         elif now != draft.base:
             self.moved.add(path)
         return path in self.moved
+
+
+def at_fault(mistake):
+    """Return the path of the file that a Mistake names and that can be edited, or None."""
+    found = _AT_FAULT.match(str(mistake))
+    path = os.path.abspath(found.group(1)) if found else ""
+    return path if os.path.isfile(path) and not ships(path) else None
 
 
 def ships(path):

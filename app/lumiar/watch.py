@@ -22,6 +22,11 @@ class Watch:
         return {*self._seen}
 
     @property
+    def moving(self):
+        """{path: its state} of the files that were saved a moment ago, and may not be whole yet."""
+        return {path: state for path, (state, _) in self._moving.items()}
+
+    @property
     def restless(self):
         """Whether a file was saved a moment ago, and may not be whole yet."""
         return bool(self._moving)

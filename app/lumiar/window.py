@@ -15,9 +15,10 @@ from .overlay import Overlay
 from .phrases import TEXT
 from .pointer import Pointer
 from .stage import REST, Stage
+from .trial import Trial
 
 SIZE = (1280, 800)
-IDLE = 0.15  # seconds between two looks at the files
+IDLE, SOON = 0.15, 0.005  # seconds between two looks at the files, and while one is being saved
 FRAMES = 3  # that imgui takes to settle after an event
 LINGER = 0.7  # seconds after which a tooltip has come up
 NOTICE = 4.0  # seconds that a message of something done stays
@@ -34,6 +35,9 @@ class Viewer:
 
     def __init__(self, scene, lang, name="", path="", hidden=False, size=SIZE):
         self.document = scene if isinstance(scene, Document) else Document(scene, name, path)
+        self.trial = Trial()
+        if self.document.gate.own(self.scene):
+            self.trial.start()  # while the window opens
         self.desktop = Desktop(size, "Lumiar", hidden)
         context = self.desktop.context
         self.stage, self.overlay, self.drawer = Stage(context), Overlay(context), Drawer()
@@ -47,6 +51,8 @@ class Viewer:
         self.pointer, self._seen = Pointer(self.stage, self.document.beside), None
         self.with_panel, self.with_keys, self.due = True, False, FRAMES
         self.kept, self.kept_at = None, time.monotonic()
+        self.trial.driver = self.stage.renderer.name
+        self.document.guard(self.trial)
 
     def __enter__(self):
         return self
@@ -59,6 +65,7 @@ class Viewer:
         if self.desktop.window:
             self._keep()
             self.desktop.use()
+            self.trial.release()
             self.drawer.release()
             self.stage.release()
             self.overlay.release()
@@ -72,8 +79,8 @@ class Viewer:
     def run(self):
         """Turn until the window is closed."""
         while not self.desktop.closing:
-            now, idle = time.monotonic(), 0.05 if self.document.watch.restless else IDLE
-            wait = min(idle, 0.1) if self._lingers(now) else idle
+            now, soon = time.monotonic(), self.trial.busy or self.document.watch.restless
+            wait = SOON if soon else min(IDLE, 0.1) if self._lingers(now) else IDLE
             wait = 0.0 if self.due and 0 not in self.desktop.size else wait
             self.frame(max(0.0, min(wait, self.state.wake - now)))
 
@@ -84,7 +91,8 @@ class Viewer:
         if self.document.tick(now):
             self.due, self.moved = max(self.due, 1), now
         saved, typed = self.document.watch.changed(now), self.document.look(now)
-        if events or saved or typed or self.due or self._lingers(now):
+        tried = self.document.settle()
+        if events or saved or typed or tried is not None or self.due or self._lingers(now):
             self.desktop.use()
         if events or typed:
             self.due, self.awake = FRAMES, now + LINGER
@@ -92,6 +100,8 @@ class Viewer:
             getattr(self, f"_on_{event}")(*how)
         if saved:
             self._reload(saved)
+        if tried is not None:
+            self._renewed(tried)
         self._notice_step()
         if not (self.due or self._lingers(now)) or 0 in self.desktop.size:
             if now - self.kept_at > KEEP:
@@ -124,6 +134,7 @@ class Viewer:
         self.pointer.left = left
         self.stage.draw(self.document.beside, self.scene, size, now - self.moved)
         self.due = max(self.due, self.stage.begun)
+        self.trial.expect(size, self.stage.cost)
         if self.stage.busy:
             self.state.wake = min(self.state.wake, now + IDLE)
         self._say_over(left, size, now)
@@ -259,9 +270,11 @@ class Viewer:
             self.desktop.close()
 
     def _reload(self, paths):
-        names = self.document.reload(paths)
-        self.due = FRAMES
+        self._renewed(self.document.reload(paths))
         self.stage.stale()
+
+    def _renewed(self, names):
+        self.due = FRAMES
         if names:
             self._tell("reloaded", ", ".join(names))
 

@@ -18,14 +18,18 @@ uniform bool ambient = true;      // toggle: the ambient term
 uniform bool diffuse = true;      // toggle: the diffuse term
 uniform bool specular = true;     // toggle: the specular term
 
+float power_lobe(vec3 H) {
+    vec2 squares = vec2(H.z * H.z, dot(H.xy, H.xy)) / dot(H, H);  // of cos(phi) and sin(phi): no root
+    // none where H vanishes: L = -V, the eye below the surface
+    return H.z > 0.0 ? cos_power(squares.x, squares.y, 0.5 * shininess) : 0.0;
+}
+
 vec3 scatter(vec3 L, vec3 V) {
     if (L.z <= 0.0) return vec3(0.0);
     vec3 value = vec3(0.0);
     if (diffuse) value += kd * L.z;
     if (specular) {
-        vec3 H = L + V;  // vanishes for L = -V, with the eye below the surface
-        float adjacent = H.z + length(H);  // tan(phi / 2) = sin(phi) / (1 + cos(phi))
-        float lobe = H.z > 0.0 ? cos_power(dot(H.xy, H.xy) / (adjacent * adjacent), shininess) : 0.0;
+        float lobe = power_lobe(L + V);
         float scale = (shininess + 2.0) * (shininess + 4.0) / (8.0 * (exp2(-0.5 * shininess) + shininess));
         value += form == FORM_SLIDE ? ks * lobe : ks * (scale * lobe * L.z);
     }
@@ -39,9 +43,8 @@ float share() {
 
 float scatter_pdf(vec3 L, vec3 V) {
     vec3 H = L + V;
-    float size = length(H), adjacent = H.z + size;
-    float lobe = H.z > 0.0 ? cos_power(dot(H.xy, H.xy) / (adjacent * adjacent), shininess) : 0.0;
-    return mix(cosine_density(L), power_density(lobe, shininess) / max(2.0 * size, 1e-6), share());  // 1e-6: L = -V
+    float density = power_density(power_lobe(H), shininess) / max(2.0 * length(H), 1e-6);  // 1e-6: L = -V
+    return mix(cosine_density(L), density, share());
 }
 
 vec3 sample_scatter(vec3 V, vec2 u, out vec3 L) {

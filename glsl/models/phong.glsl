@@ -17,14 +17,18 @@ uniform bool ambient = true;     // toggle: the ambient term
 uniform bool diffuse = true;     // toggle: the diffuse term
 uniform bool specular = true;    // toggle: the specular term
 
+float power_lobe(vec3 L, vec3 V) {
+    vec3 d = vec3(-L.xy, L.z) - V;  // R - V, so that 1 - cos(beta) = d.d / 2
+    float gap = 0.5 * dot(d, d);
+    return cos_power(1.0 - gap, gap, shininess);
+}
+
 vec3 scatter(vec3 L, vec3 V) {
     if (L.z <= 0.0) return vec3(0.0);
     vec3 value = vec3(0.0);
     if (diffuse) value += kd * L.z;
     if (specular) {
-        vec3 d = vec3(-L.xy, L.z) - V;  // R - V, so that tan^2(beta / 2) = d.d / (4 - d.d)
-        float square = dot(d, d);
-        float lobe = cos_power(square / max(4.0 - square, 1e-6), shininess);  // 1e-6: V = -R
+        float lobe = power_lobe(L, V);
         value += form == FORM_SLIDE ? ks * lobe : ks * (0.5 * (shininess + 2.0) * lobe * L.z);
     }
     return value * INV_PI;
@@ -36,9 +40,7 @@ float share() {
 }
 
 float scatter_pdf(vec3 L, vec3 V) {
-    vec3 d = vec3(-L.xy, L.z) - V;
-    float square = dot(d, d), lobe = cos_power(square / max(4.0 - square, 1e-6), shininess);
-    return mix(cosine_density(L), power_density(lobe, shininess), share());
+    return mix(cosine_density(L), power_density(power_lobe(L, V), shininess), share());
 }
 
 vec3 sample_scatter(vec3 V, vec2 u, out vec3 L) {

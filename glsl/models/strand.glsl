@@ -17,9 +17,9 @@ vec3 scatter(vec3 L, vec3 V) {
     if (form == FORM_SURFACE && (L.z <= 0.0 || V.z <= 0.0)) return vec3(0.0);
     float sin_L = length(L.yz), sin_V = length(V.yz);  // to the tangent, (1, 0, 0)
     // 1 + cos(theta_L + theta_V): how far the light is from leaving on its cone
-    float gap = sin_L - sin_V, sum = L.x + V.x;
-    float square = gap * gap + sum * sum;
-    float lobe = cos_power(square / max(4.0 - square, 1e-6), shininess);  // 1e-6: opposite
+    float over = sin_L - sin_V, along = L.x + V.x;
+    float gap = 0.5 * (over * over + along * along);
+    float lobe = cos_power(1.0 - gap, gap, shininess);
     if (form == FORM_SURFACE) return INV_PI * L.z * (kd + ks * lobe);
     return INV_PI * (kd * sin_L + ks * lobe);
 }
