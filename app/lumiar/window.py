@@ -133,6 +133,7 @@ class Viewer:
         left, size = self._area()
         self.pointer.left = left
         self.stage.draw(self.document.beside, self.scene, size, now - self.moved)
+        self.due = max(self.due, self.stage.begun)
         self.trial.expect(size, self.stage.cost)
         if self.stage.busy:
             self.state.wake = min(self.state.wake, now + IDLE)
