@@ -8,7 +8,7 @@ import pytest
 from hand import Spy
 from test_window import MODEL, plain, press, save, settle, shown
 
-from lumiar import arguments, editor, gallery, verbs
+from lumiar import Scene, arguments, editor, gallery, verbs
 from lumiar.desktop import glfw
 from lumiar.document import Document
 from lumiar.errors import Mistake
@@ -334,6 +334,20 @@ def test_a_scene_with_a_mistake_named_at_the_start_opens_and_recovers(folder):
         save(viewer, path, "samples = 1")
         assert viewer.scene.samples == 1 and not viewer.document.fault
         assert viewer.document.path == str(path)
+
+
+def test_nothing_is_awaited_once_another_scene_is_open(folder):
+    broken, other = folder / "broken.toml", folder / "other.toml"
+    broken.write_text("samples = 2\n")
+    other.write_text("samples = 4\n")
+    with pytest.raises(Mistake) as mistake:
+        Scene.load(str(broken))
+    one = Document.expecting(lambda: Scene.load(str(broken)), "", str(broken), mistake.value)
+    one.drop(str(other))
+    assert not one.fault and not one.awaits
+    broken.write_text("samples = 9\n")
+    one.reload([str(broken)])
+    assert (one.name, one.scene.samples) == ("other", 4)
 
 
 def test_a_file_that_does_not_exist_still_ends_in_one_line(lumiar):

@@ -50,8 +50,9 @@ def rates():
 
 
 def models(names):
-    """Return the Comparison of some models side by side."""
-    return Comparison("grid", tuple(Variant((("model", name),)) for name in names))
+    """Return the Comparison of some models side by side; of none the scene alone."""
+    variants = tuple(Variant((("model", name),)) for name in names)
+    return Comparison("grid", variants) if variants else Comparison()
 
 
 def shots(given):

@@ -110,6 +110,9 @@ class Document:
         """Show a scene, or the first picture of a sheet, instead of what was shown."""
         stops, pages = _pages(scene)
         self.gate.admit([pages[0][1]], self.history and self.scene)
+        if self._waiting:  # for another one, which nobody wants any more
+            self.texts.faults.pop(self._waiting[-1], None)
+            self._waiting = None
         self.stops, self.pages, self.page = stops, pages, 0
         self.name, self.path = name, path
         self._begin()
@@ -248,7 +251,7 @@ class Document:
         if not mistake:
             try:
                 self.open(load(), name, path)
-                self.history, self._waiting = History(self.history.scene), None
+                self.history = History(self.history.scene)
                 return
             except Mistake as again:
                 mistake = again
@@ -260,10 +263,11 @@ class Document:
     def _begin(self):
         self.clock.stop()
         self.home = self.pages[self.page][1]
-        if self.stops:
-            self.beside.home = compare.shots(self.stop.shots)
-        if self.history and not self.stops:
-            self.history.push(Edit(self.home, self.beside.comparison))
+        plain, before = compare.Comparison(), self.beside.home
+        self.beside.home = compare.shots(self.stop.shots) if self.stops else plain
+        if self.history and not self.stops:  # what a lesson compares is its own
+            shown = self.beside.comparison if before == plain else plain
+            self.history.push(Edit(self.home, shown))
         else:
             self.history = History(Edit(self.home, self.beside.home))
         self._follow()
