@@ -8,7 +8,7 @@ import pytest
 from test_editor import rest
 from test_window import MODEL, plain, press, settle, shown
 
-from lumiar import arguments, catalog, trial, verbs
+from lumiar import arguments, catalog, files, trial, verbs
 from lumiar.desktop import glfw
 from lumiar.document import Document
 from lumiar.trial import Trial
@@ -142,7 +142,7 @@ def test_a_crash_that_was_typed_is_not_repeated_when_the_window_is_restored(own)
 
 
 def test_where_no_process_can_be_started_all_is_compiled_directly(own, monkeypatch):
-    monkeypatch.setattr(trial.sys, "executable", "/nowhere/python")
+    monkeypatch.setattr(files.sys, "executable", "/nowhere/python")
     with opened(own) as viewer:
         settle(viewer)
         before = shown(viewer)

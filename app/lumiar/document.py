@@ -264,12 +264,11 @@ class Document:
         self.clock.stop()
         self.home = self.pages[self.page][1]
         plain, before = compare.Comparison(), self.beside.home
-        self.beside.home = compare.shots(self.stop.shots) if self.stops else plain
-        if self.history and not self.stops:  # what a lesson compares is its own
-            shown = self.beside.comparison if before == plain else plain
-            self.history.push(Edit(self.home, shown))
+        self.beside.home = home = compare.shots(self.stop.shots) if self.stops else plain
+        if self.history and not self.stops:  # what a lesson compares ends with it
+            self.history.push(Edit(self.home, self.beside.comparison if before == plain else home))
         else:
-            self.history = History(Edit(self.home, self.beside.home))
+            self.history = History(Edit(self.home, home))
         self._follow()
 
     @property

@@ -47,7 +47,7 @@ def read(path):
         if report["schema"] == SCHEMA:
             for one in report["studies"]:
                 [study.from_row(row) for row in one["points"]]
-            if "made" in report and all(PARTS <= {*one} for one in report["studies"]):
+            if "made" in report and all({*one} >= PARTS for one in report["studies"]):
                 return report
             reason = "parts of it are missing"
     except (ValueError, KeyError, TypeError, RecursionError):
