@@ -50,9 +50,8 @@ def rates():
 
 
 def models(names):
-    """Return the Comparison of some models side by side; of none the scene alone."""
-    variants = tuple(Variant((("model", name),)) for name in names)
-    return Comparison("grid", variants) if variants else Comparison()
+    """Return the Comparison of some models side by side."""
+    return Comparison("grid", tuple(Variant((("model", name),)) for name in names))
 
 
 def shots(given):

@@ -143,12 +143,12 @@ class Document:
             scene = self.scene
             self.clock.stop()
             self.push(scene)
-        elif uses_time(self.scene):
+        elif opening.uses_time(self.scene):
             self.clock.start(time.monotonic(), self.scene.time)
 
     def tick(self, now):
         """Take that it is now; return whether the time of the scene runs."""
-        if self.clock.runs and not uses_time(self.scene):
+        if self.clock.runs and not opening.uses_time(self.scene):
             self.clock.stop()
         self.clock.tick(now)
         return self.clock.runs
@@ -295,8 +295,3 @@ def _pages(scene):
     """Return (stops, pages) of a Scene or of a Lesson."""
     stops = lessons.stops(scene) if isinstance(scene, lessons.Lesson) else []
     return stops, [({}, stop.step.scene) for stop in stops] or opening.pages(scene)
-
-
-def uses_time(scene):
-    """Return whether a model or a light of a scene changes with its time."""
-    return any(p.widget == "time" for shader in opening.shaders(scene) for p in shader.parameters)
