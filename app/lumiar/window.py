@@ -46,7 +46,7 @@ class Viewer:
         self.state = panel.State(lang=lang, tools=tuple(TOOLS))
         self.presenter, self.handles = presenter.Presenter(self.overlay), handles.Handles()
         self.presents = bool(self.document.stop)
-        self.fault, self.notice, self.titled = "", ("", 0.0), ""
+        self.fault, self.notice = "", ("", 0.0)
         self.moved = self.awake = 0.0
         self.pointer, self._seen = Pointer(self.stage, self.document.beside), None
         self.with_panel, self.with_keys, self.due = True, False, FRAMES
@@ -142,10 +142,7 @@ class Viewer:
         self.stage.present(self.overlay, left)
         self.overlay.widgets(imgui.get_draw_data(), desktop.context.screen, desktop.size)
         desktop.show()
-        title = f"{self.document.name} · Lumiar".removeprefix(" · ")
-        if title != self.titled:
-            desktop.title(title)
-            self.titled = title
+        desktop.title(f"{self.document.name} · Lumiar".removeprefix(" · "))
 
     def _area(self):
         """Return (left, (width, height)) in pixels of where the picture goes."""
