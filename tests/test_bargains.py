@@ -90,6 +90,8 @@ def test_reports_that_are_none_or_gone_are_said_and_a_new_one_is_read(
     path = tmp_path / "bench" / "report.json"
     path.write_text("{}")
     assert "no report of `lumiar bench`" in said(viewer, monkeypatch)[0]
+    path.write_text('{"schema": 1, "made": {}, "studies": [{"name": "lobes", "points": []}]}')
+    assert "parts of it are missing" in said(viewer, monkeypatch)[0]
     write(tmp_path, points()[:9])
     assert len(said(viewer, monkeypatch)) > 9
     path.unlink()

@@ -4,7 +4,7 @@ import pytest
 from hand import PANEL, Spy
 from test_window import SIZE, plain, press, screen, settle, shown
 
-from lumiar import document
+from lumiar import opening
 from lumiar.clock import Clock
 from lumiar.desktop import glfw
 from lumiar.window import Viewer
@@ -85,7 +85,7 @@ def test_where_nothing_changes_with_time_it_does_not_run(viewer):
     viewer.frame()
     assert not viewer.document.clock.runs
     space(viewer)
-    assert not viewer.document.clock.runs and not document.uses_time(viewer.scene)
+    assert not viewer.document.clock.runs and not opening.uses_time(viewer.scene)
 
 
 def test_another_scene_begins_with_its_own_time(viewer):

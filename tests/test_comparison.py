@@ -25,6 +25,7 @@ from lumiar import (
     widgets,
 )
 from lumiar.compare import Comparison, Variant
+from lumiar.comparing import TEXT
 from lumiar.desktop import glfw
 from lumiar.window import Viewer
 
@@ -416,6 +417,17 @@ def test_models_are_ticked(wide, look):
     assert names == ["phong", "lambert", "blinn"]
     click(wide, look, "lambert")
     assert len(wide.stage.easels) == 2
+    click(wide, look, "phong", last=True)
+    click(wide, look, "blinn")  # one is left, whatever is clicked
+    assert wide.document.beside.comparison == compare.models(["blinn"])
+
+
+def test_a_lone_picture_has_none_to_change_places_with(wide, look):
+    show(wide, compare.models(["ward"]))
+    swap = TEXT["en"]["compare"]["swap"]
+    assert not any(swap in place for place in look(wide).places)
+    show(wide, PAIR)
+    assert any(swap in place for place in look(wide).places)
 
 
 def test_the_tool_speaks_both_languages(wide, look):

@@ -8,7 +8,7 @@ import pytest
 from hand import Spy
 from test_window import MODEL, plain, press, save, settle, shown
 
-from lumiar import arguments, editor, verbs
+from lumiar import Scene, arguments, editor, gallery, verbs
 from lumiar.desktop import glfw
 from lumiar.document import Document
 from lumiar.errors import Mistake
@@ -109,9 +109,11 @@ def test_what_is_typed_is_drawn_before_it_is_saved(viewer, own):
     viewer.document.gate.edit(str(own), drawn.replace("k * tint", "tint"), 0.0)
     rest(viewer)
     assert (shown(viewer) != before).any() and own.read_text() == MODEL % ""
+    assert "own.glsl" in gallery.caption(viewer.document, "en")
     assert typed(viewer) == drawn.replace("k * tint", "tint")
     press(viewer, glfw.KEY_S, CTRL)
     assert own.read_text() == typed(viewer) and not viewer.document.texts.drafts
+    assert "own.glsl" not in gallery.caption(viewer.document, "en")
 
 
 def test_a_mistake_is_marked_on_its_line_while_the_last_picture_stays(viewer, own):
@@ -332,6 +334,20 @@ def test_a_scene_with_a_mistake_named_at_the_start_opens_and_recovers(folder):
         save(viewer, path, "samples = 1")
         assert viewer.scene.samples == 1 and not viewer.document.fault
         assert viewer.document.path == str(path)
+
+
+def test_nothing_is_awaited_once_another_scene_is_open(folder):
+    broken, other = folder / "broken.toml", folder / "other.toml"
+    broken.write_text("samples = 2\n")
+    other.write_text("samples = 4\n")
+    with pytest.raises(Mistake) as mistake:
+        Scene.load(str(broken))
+    one = Document.expecting(lambda: Scene.load(str(broken)), "", str(broken), mistake.value)
+    one.drop(str(other))
+    assert not one.fault and not one.awaits
+    broken.write_text("samples = 9\n")
+    one.reload([str(broken)])
+    assert (one.name, one.scene.samples) == ("other", 4)
 
 
 def test_a_file_that_does_not_exist_still_ends_in_one_line(lumiar):

@@ -1,6 +1,7 @@
 """Files are written whole or not at all, whoever else writes them at the same time."""
 
 import os
+import subprocess
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
@@ -38,3 +39,13 @@ def test_what_fails_halfway_leaves_the_old_file_and_nothing_else(tmp_path):
     with pytest.raises(OSError, match="the disk is full"):
         files.write_whole(path, chunks())
     assert path.read_bytes() == b"old" and os.listdir(tmp_path) == ["one.bin"]
+
+
+def test_a_process_of_its_own_takes_no_module_from_the_current_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("LUMIAR_SUPERVISOR", "99")
+    for name in ("random", "json", "lumiar"):  # as a student may call what he writes
+        (tmp_path / f"{name}.py").write_text("raise SystemExit(3)")
+    code = "import os, random, json, lumiar; assert 'LUMIAR_SUPERVISOR' not in os.environ"
+    command, environment = files.python("-c", code)
+    assert subprocess.run(command, env=environment).returncode == 0

@@ -174,3 +174,13 @@ def test_the_window_lives_on_while_it_films(tool):
     tool.viewer.awake = tool.viewer.moved = 0.0
     settle(tool.viewer)
     assert not any(tool.viewer.frame() for _ in range(4))
+
+
+def test_a_film_that_no_encoder_makes_is_not_told_as_saved(tool, monkeypatch, tmp_path):
+    def encoded(*_):
+        raise KeyError("WEBP")  # as Pillow without it
+        yield
+
+    monkeypatch.setattr(film, "encoded", encoded)
+    filmed(tool)
+    assert "WEBP" in tool.fault and not tool.saved and os.listdir(tmp_path) == []

@@ -34,6 +34,17 @@ def instrument():
         yield one
 
 
+def test_models_that_are_edited_again_and_again_leave_no_programs_behind(instrument):
+    up = np.array([[0.0, 0.0, 1.0]])
+    pairs = instrument.pairs(up, up)
+    for i in (*range(measure.PROGRAMS + 3), 0):
+        text = f"// model   Own\nvec3 scatter(vec3 L, vec3 V) {{ return vec3({i}.0); }}\n"
+        one = catalog.parse("model", "own", "own.glsl", text)
+        assert instrument.scatter(one, {}, pairs)[0, 0] == i
+    assert len(instrument._programs) == measure.PROGRAMS
+    instrument.forget(pairs)
+
+
 def test_directions_are_unit_and_hit_right_angles_exactly():
     for theta, phi, expected in (
         (0, 77, (0, 0, 1)),

@@ -4,7 +4,7 @@ import pytest
 from hand import PANEL, Spy
 from test_window import MIDDLE, captured, drag, plain, press, save, screen, settle, shown
 
-from lumiar import banner, hands, lesson, presenter, settings
+from lumiar import banner, compare, hands, lesson, presenter, settings
 from lumiar.desktop import glfw
 from lumiar.window import Viewer
 
@@ -97,6 +97,15 @@ def test_the_pictures_of_a_step_stand_side_by_side_with_their_captions(viewer, l
         assert easel.shown.objects == shot.scene.objects
     corners = [place[:2] for place in viewer.stage.places]
     assert len({*corners}) == 3
+
+
+def test_what_a_step_compares_ends_with_the_lesson(viewer, tmp_path):
+    press(viewer, glfw.KEY_PAGE_DOWN)
+    assert len(viewer.stage.easels) == 3
+    (tmp_path / "plain.toml").write_text("exposure = 1.0\n")
+    viewer.document.drop(str(tmp_path / "plain.toml"))
+    settle(viewer)
+    assert len(viewer.stage.easels) == 1 and viewer.document.beside.home == compare.Comparison()
 
 
 def test_the_panel_has_the_sliders_of_the_step_alone(viewer, look):

@@ -6,7 +6,7 @@ import numpy as np
 import oracle
 import pytest
 
-from lumiar import camera, layout, stock
+from lumiar import camera, layout, settings, stock
 from lumiar import renderer as module
 from lumiar.errors import Mistake
 from lumiar.parts import Panel
@@ -285,8 +285,10 @@ def test_strips_do_not_show(renderer, monkeypatch):
     assert np.abs(radiance(scene, renderer) - linear).max() < 5e-6  # interpolation rounds anew
 
 
-def test_a_picture_shown_some_rows_at_a_time_is_the_picture(renderer):
-    scene = lit(size=(50, 37), samples=4)
+@pytest.mark.parametrize("samples", [16, 1100])  # in one pass, in several
+def test_a_picture_shown_some_rows_at_a_time_is_the_picture(renderer, samples):
+    lamp = settings.light(f"sphere:samples={samples}:radius=1")
+    scene = lit(size=(50, 37), samples=4)._replace(lights=(lamp,))
     with renderer.context as context:
         canvas = context.framebuffer([context.texture(scene.size, 4)])
     for top in range(0, 37, 8):

@@ -1,5 +1,7 @@
 """What stands in the window while its size changes: tools, what was picked, help, small columns."""
 
+import itertools
+
 import pytest
 from test_window import SIZE, plain, press, settle
 
@@ -64,6 +66,7 @@ def test_a_tool_keeps_its_share_and_leaves_the_picture_some(viewer):
 
 
 def test_a_picked_pixel_stays_on_its_thing_when_the_picture_gets_another_size(viewer):
+    viewer._push(viewer.scene.changed("camera.distance", 5.0))
     resize(viewer, 1200, 400)
     left, (wide, high) = viewer._area()
     viewer.desktop.move(left + wide // 2 + 70, high // 2 - 30)
@@ -76,7 +79,7 @@ def test_a_picked_pixel_stays_on_its_thing_when_the_picture_gets_another_size(vi
     def found():
         viewer.moved, viewer.due = 0.0, 1
         viewer.frame()
-        return viewer.drawer.tool.found["position"], viewer.pointer.picked
+        return viewer.drawer.tool.found["position_m"], viewer.pointer.picked
 
     position, at = found()
     resize(viewer, 1000, 600)
@@ -104,15 +107,17 @@ def test_the_columns_of_the_data_sheet_stand_apart_in_large_letters(viewer, monk
     press(viewer, glfw.KEY_F4)
     tool = viewer.drawer.tool
     said = {"verdict": "does not hold", "agrees": True, "worst": 0.0}
-    claims = {name: {**said, "claimed": "form = normalised"} for name in ("reciprocal", "conserving")}
+    claims = {
+        name: {**said, "claimed": "form = normalised"} for name in ("reciprocal", "conserving")
+    }
     counts = dict.fromkeys(("evaluations", "nan", "infinite", "negative"), 0)
     sheet = {"claims": claims, "broken": [], "hostile": counts}
-    monkeypatch.setattr(type(tool), "sheet", property(lambda _: sheet), raising=False)
+    monkeypatch.setattr(tool.auditor, "sheet", lambda _: sheet)
     found = placed(viewer, datasheet, monkeypatch)
     signs = [i for i, one in enumerate(found) if one[0] == "✗"]
     assert len(signs) == 2
     for i in (signs[0] - 4, *signs):  # and what stands above them
         row = found[i : i + 4]
         assert len({round(top, 1) for _, _, top, _ in row}) == 1
-        assert all(one[3] < other[1] for one, other in zip(row, row[1:], strict=False))
+        assert all(one[3] < other[1] for one, other in itertools.pairwise(row))
         assert row[-1][3] <= viewer.desktop.size[0]

@@ -8,7 +8,7 @@ import pytest
 from test_editor import rest
 from test_window import MODEL, plain, press, settle, shown
 
-from lumiar import arguments, catalog, trial, verbs
+from lumiar import arguments, catalog, files, trial, verbs
 from lumiar.desktop import glfw
 from lumiar.document import Document
 from lumiar.trial import Trial
@@ -91,11 +91,28 @@ def test_a_model_that_crashes_named_at_the_start_opens_and_recovers(own):
         settle(viewer)
         neutral = shown(viewer)
         assert f"{own}: crashes the driver" in viewer.document.fault and neutral.any()
+        assert viewer.document.history.able == ()  # no way back to it
         press(viewer, glfw.KEY_F7)
         assert viewer.drawer.tool.path == str(own)
         press(viewer, glfw.KEY_F7)
         save(viewer, own, MODEL % "")
         assert not viewer.document.fault and (shown(viewer) != neutral).any()
+        assert viewer.document.history.able == ()
+
+
+def test_reading_all_again_tries_again(own, monkeypatch):
+    with opened(own) as viewer:
+        settle(viewer)
+        monkeypatch.setattr(viewer.trial, "_patience", -1.0)
+        monkeypatch.setattr(viewer.trial, "expect", lambda *_: None)
+        save(viewer, own, MODEL % " * 0.5")
+        assert "too slow" in viewer.document.fault
+        monkeypatch.setattr(viewer.trial, "_patience", 1e9)
+        save(viewer, own, MODEL % " * 0.5")
+        assert "too slow" in viewer.document.fault  # what is known is not tried again
+        press(viewer, glfw.KEY_F5)
+        assert not viewer.document.fault
+        assert viewer.scene.objects[0].model.text == MODEL % " * 0.5"
 
 
 def test_what_is_dropped_or_typed_is_tried_first_too(own):
@@ -125,7 +142,7 @@ def test_a_crash_that_was_typed_is_not_repeated_when_the_window_is_restored(own)
 
 
 def test_where_no_process_can_be_started_all_is_compiled_directly(own, monkeypatch):
-    monkeypatch.setattr(trial.sys, "executable", "/nowhere/python")
+    monkeypatch.setattr(files.sys, "executable", "/nowhere/python")
     with opened(own) as viewer:
         settle(viewer)
         before = shown(viewer)

@@ -44,7 +44,8 @@ def settle(one):
         one.frame()
     if one.stage.coarse:  # a coarse picture, as while it moves
         one.moved, one.due = 0.0, 1
-        one.frame()
+        while one.due:
+            one.frame()
 
 
 def shown(one):
@@ -134,6 +135,20 @@ def test_a_slow_picture_is_coarse_only_while_it_moves(viewer):
     assert viewer.stage.coarse and (shown(viewer) != fine).any()
     settle(viewer)
     assert not viewer.stage.coarse
+
+
+def test_a_picture_that_takes_long_is_drawn_some_rows_a_frame_and_any_move_ends_it(viewer):
+    before, (easel,) = shown(viewer), viewer.stage.easels
+    viewer.stage.cost, easel.cost = 0.0, 10.0  # as on a slow machine
+    viewer._push(viewer.scene._replace(exposure=1.0, samples=16))
+    viewer.frame()
+    assert viewer.stage.begun and viewer.stage.coarse and viewer.due
+    half = shown(viewer)
+    assert (half[0] != before[0]).any() and (half[-1] == before[-1]).all()
+    viewer.stage.cost, easel.cost = 1.0, 10.0
+    drag(viewer, MIDDLE, ASIDE)
+    assert not viewer.stage.begun and not viewer.stage.coarse and easel.cost < 10.0
+    assert (shown(viewer) == captured(hands.framed(viewer.scene, viewer._area()[1]))).all()
 
 
 def test_an_idle_window_draws_nothing(viewer):

@@ -5,12 +5,11 @@ import json
 import os
 import shutil
 import subprocess
-import sys
 import tempfile
 
 from . import __version__, cache, catalog
 from .errors import Mistake, one_line
-from .files import GLSL, write_whole
+from .files import GLSL, python, write_whole
 
 _JUDGES = ("audit", "claims", "compose", "examine", "hostile", "measure", "reference")
 
@@ -63,10 +62,9 @@ class Auditor:
                 open(os.path.join(self._folder, part), "w+b")  # noqa: SIM115  closed by _tidy
                 for part in ("out", "err")
             ]
-            command = [sys.executable, "-m", "lumiar", "audit", name, "--json"]
-            self._child = subprocess.Popen(
-                command, stdin=subprocess.DEVNULL, stdout=self._said[0], stderr=self._said[1]
-            )
+            command, env = python("-m", "lumiar", "audit", name, "--json")
+            pipes = dict(zip(("stdout", "stderr"), self._said, strict=True))
+            self._child = subprocess.Popen(command, env=env, stdin=subprocess.DEVNULL, **pipes)
             with contextlib.suppress(OSError, AttributeError):
                 os.setpriority(os.PRIO_PROCESS, self._child.pid, 5)  # the window comes first
         except OSError as error:

@@ -20,6 +20,7 @@ class Code:
             self.area.set_language(ed.TextEditor.Language.glsl())
         self.area.set_palette(ed.TextEditor.get_dark_palette())
         self.area.set_show_whitespaces_enabled(False)
+        self.area.set_complete_paired_glyphs(False)  # it leaves those there that are typed, too
         self.area.set_tab_size(4)
         self.area.set_insert_spaces_on_tabs(True)
         self.area.set_text(text)

@@ -113,7 +113,7 @@ def _pictures(comparison, now, words):
         imgui.pop_id()
         if comparison is not now.document.beside.comparison:
             return comparison
-    if several and imgui.button(words["swap"]):
+    if several and len(comparison.variants) > 1 and imgui.button(words["swap"]):
         return compare.swapped(comparison)
     return comparison
 

@@ -10,7 +10,6 @@ from .errors import Mistake, one_line
 from .measure import Instrument
 from .measuring import INCIDENCE, Chosen
 
-COMPILED = 24  # programs, after which those that nobody shows any more are forgotten
 ANGLES = gonio.steps(0.0, 90.0, 0.5)  # degrees at which a Fresnel reflectance is told
 CLOSE = 0.01  # degrees from the normal, where a direction has no azimuth worth the name
 
@@ -51,8 +50,8 @@ class Bench:
     """
 
     def __init__(self, context):
-        self._context, self._instrument = context, Instrument(context)
-        self._before, self._kept, self._compiled = {}, {}, set()
+        self._instrument = Instrument(context)
+        self._before, self._kept = {}, {}
         self.faults, self.busy, self._spent = [], False, False
 
     def release(self):
@@ -63,9 +62,6 @@ class Bench:
         """Begin a frame: what the one before had no use for is forgotten."""
         self._before, self._kept, self.faults = self._kept, {}, []
         self.busy = self._spent = False
-        if len(self._compiled) > COMPILED:
-            self._instrument.release()
-            self._instrument, self._compiled = Instrument(self._context), set()
 
     def curve(self, one, aim):
         """Return the panels.Curve of a model in the plane of an Aim."""
@@ -131,10 +127,8 @@ class Bench:
 
     def _measured(self, what, one, how, make, quantity="scatter"):
         """Return what `make` makes of a function (L, V) → (n, 3), once for the same model."""
-        key = (what, one.shader.text, tuple(one.values.items()), how)
+        key = (what, one.shader.source, tuple(one.values.items()), how)
         if key not in self._kept:
-            constants = tuple(one.shader.constants(one.values).items())
-            self._compiled.add((one.shader.text, quantity, constants))
             try:
                 made = self._before.get(key)
                 evaluate = measuring.evaluator(self._instrument, one, quantity)

@@ -60,7 +60,7 @@ class Desktop:
     def __init__(self, size, title, hidden=False):
         self._keys = _key_map()
         self.events, self._windowed, self._last = [], None, time.monotonic()
-        self._cursors = {None: None}
+        self._cursors, self._title = {None: None}, title
         self.window = _open(size, title, hidden)
         try:
             self.context = window_context()
@@ -114,7 +114,9 @@ class Desktop:
 
     def title(self, text):
         """Write the title of the window."""
-        glfw.set_window_title(self.window, text)
+        if text != self._title:  # a frame need not ask the desktop for it
+            glfw.set_window_title(self.window, text)
+            self._title = text
 
     def take(self, wait=0.0):
         """Return the events since the last time; wait for one, up to so many seconds."""

@@ -60,6 +60,7 @@ class Document:
         except Mistake as mistake:
             load, name, path = self._load or (lambda: opening.reread(scene)), self.name, self.path
             self.gate.fresh.clear()
+            self.history = None  # none of its steps may be taken again
             self.open(Scene.default())
             self._expect(load, name, path, mistake)
 
@@ -109,6 +110,9 @@ class Document:
         """Show a scene, or the first picture of a sheet, instead of what was shown."""
         stops, pages = _pages(scene)
         self.gate.admit([pages[0][1]], self.history and self.scene)
+        if self._waiting:  # for another one, which nobody wants any more
+            self.texts.faults.pop(self._waiting[-1], None)
+            self._waiting = None
         self.stops, self.pages, self.page = stops, pages, 0
         self.name, self.path = name, path
         self._begin()
@@ -139,12 +143,12 @@ class Document:
             scene = self.scene
             self.clock.stop()
             self.push(scene)
-        elif uses_time(self.scene):
+        elif opening.uses_time(self.scene):
             self.clock.start(time.monotonic(), self.scene.time)
 
     def tick(self, now):
         """Take that it is now; return whether the time of the scene runs."""
-        if self.clock.runs and not uses_time(self.scene):
+        if self.clock.runs and not opening.uses_time(self.scene):
             self.clock.stop()
         self.clock.tick(now)
         return self.clock.runs
@@ -195,8 +199,7 @@ class Document:
         What is being saved is tried already while it settles.
         """
         self.gate.foresee(self.watch.moving, self.beside)
-        decided = self.gate.settle(self.beside)
-        if not decided:
+        if not (decided := self.gate.settle(self.beside)):
             return None
         self._renew()
         return self.gate.names(path for path in decided if path not in self.texts.drafts)
@@ -232,13 +235,13 @@ class Document:
         try:
             is_lesson = lessons.is_lesson(self.path)
             stops, pages = _pages((lessons.load if is_lesson else Scene.load)(self.path))
-            self.gate.admit([pages[min(self.page, len(pages) - 1)][1]], self.scene)
+            page = min(self.page, len(pages) - 1)
+            self.gate.admit([pages[page][1]], self.scene)
         except Mistake as mistake:
             self.texts.faults[self.path] = one_line(mistake)
             return
         self.texts.faults.pop(self.path, None)
-        self.stops, self.pages = stops, pages
-        self.page = min(self.page, len(self.pages) - 1)
+        self.stops, self.pages, self.page = stops, pages, page
         self._begin()
 
     def _expect(self, load, name, path, mistake=None):
@@ -248,7 +251,7 @@ class Document:
         if not mistake:
             try:
                 self.open(load(), name, path)
-                self._waiting = None
+                self.history = History(self.history.scene)
                 return
             except Mistake as again:
                 mistake = again
@@ -260,12 +263,12 @@ class Document:
     def _begin(self):
         self.clock.stop()
         self.home = self.pages[self.page][1]
-        if self.stops:
-            self.beside.home = compare.shots(self.stop.shots)
-        if self.history and not self.stops:
-            self.history.push(Edit(self.home, self.beside.comparison))
+        plain, before = compare.Comparison(), self.beside.home
+        self.beside.home = home = compare.shots(self.stop.shots) if self.stops else plain
+        if self.history and not self.stops:  # what a lesson compares ends with it
+            self.history.push(Edit(self.home, self.beside.comparison if before == plain else home))
         else:
-            self.history = History(Edit(self.home, self.beside.home))
+            self.history = History(Edit(self.home, home))
         self._follow()
 
     @property
@@ -292,8 +295,3 @@ def _pages(scene):
     """Return (stops, pages) of a Scene or of a Lesson."""
     stops = lessons.stops(scene) if isinstance(scene, lessons.Lesson) else []
     return stops, [({}, stop.step.scene) for stop in stops] or opening.pages(scene)
-
-
-def uses_time(scene):
-    """Return whether a model or a light of a scene changes with its time."""
-    return any(p.widget == "time" for shader in opening.shaders(scene) for p in shader.parameters)

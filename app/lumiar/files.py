@@ -98,9 +98,9 @@ def read_text(path, limit, what):
         raise Mistake(f"{path}:{line}: not UTF-8 text; save it with UTF-8 encoding") from None
 
 
-def unused(stem, ending, folder=""):
+def unused(stem, ending):
     """Return the first of `stem-001.ending`, `stem-002.ending`, … that is not there yet."""
-    paths = (os.path.join(folder, f"{stem}-{i:03}{ending}") for i in itertools.count(1))
+    paths = (f"{stem}-{i:03}{ending}" for i in itertools.count(1))
     return next(path for path in paths if not os.path.lexists(path))
 
 
@@ -124,6 +124,17 @@ def write_whole(path, chunks):
         with contextlib.suppress(OSError):
             os.unlink(temporary)
         raise
+
+
+def python(*arguments):
+    """Return (command, environment) of a Python with Lumiar in a process of its own.
+
+    It takes no module from the folder that happens to be the current one.
+    """
+    ours = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    paths = os.pathsep.join(filter(None, (ours, os.environ.get("PYTHONPATH"))))
+    environment = {key: value for key, value in os.environ.items() if key != "LUMIAR_SUPERVISOR"}
+    return [sys.executable, "-P", *arguments], {**environment, "PYTHONPATH": paths}
 
 
 def announce(message):

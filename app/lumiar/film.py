@@ -8,7 +8,7 @@ import queue
 import threading
 
 from . import files, image, navigate, settings
-from .errors import Mistake
+from .errors import Mistake, one_line
 
 ENDINGS = (".webp", ".png", ".gif")
 MOST = 16383  # pixels a side that a WebP has
@@ -106,8 +106,8 @@ class Film:
                 files.write_whole(self.path, data)
         except _GivenUp:
             pass
-        except (OSError, ValueError, MemoryError) as error:
-            self.fault = f"{self.path}: {error}"
+        except Exception as error:  # whatever an encoder raises, there is no film
+            self.fault = f"{self.path}: {one_line(error)}"
 
     def _next(self):
         pixels = self._frames.get() if self._wanted else None

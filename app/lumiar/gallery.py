@@ -1,5 +1,7 @@
 """What stands over several pictures in the window: captions, the line between two, a legend."""
 
+import os
+
 from imgui_bundle import imgui
 
 from . import banner, phrases
@@ -19,11 +21,14 @@ _BARE = (
 
 
 def caption(document, lang):
-    """Return the line below the pictures of a Document: which page it is, and what is on it."""
+    """Return the line below the pictures of a Document: its page, what is on it, not saved."""
     stop, said = document.stop, in_language(document.caption, lang)
     at = (stop.number, stop.steps) if stop else (document.page + 1, len(document.pages))
     page = phrases.TEXT[lang]["page"].format(*at) if at[1] > 1 else ""
-    return f"{page}   {said}".strip()
+    edited = [path for path in document.files if path in document.texts.drafts]
+    names = ", ".join(os.path.basename(path) for path in edited)
+    unsaved = phrases.TEXT[lang]["editor"]["edited"].format(names) if edited else ""
+    return "   ".join(filter(None, (page, said, unsaved)))
 
 
 def draw(stage, captions, left, points, lang):

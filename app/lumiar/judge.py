@@ -1,9 +1,9 @@
 """FLIP of two pictures, found in a process of its own, so that the window goes on."""
 
-import os
 import subprocess
-import sys
 import tempfile
+
+from .files import python
 
 _JOB = """
 import sys
@@ -36,17 +36,16 @@ class Judge:
     def ask(self, size, a, b):
         """Begin to find the FLIP of b against a, bytes of sRGB of pictures (width, height)."""
         self.release()
-        home = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-        path = os.pathsep.join(filter(None, (home, os.environ.get("PYTHONPATH"))))
+        command, env = python("-c", _JOB, *map(str, size))
         with tempfile.TemporaryFile() as both:
             both.write(a + b)
             both.seek(0)
             self._process = subprocess.Popen(
-                [sys.executable, "-c", _JOB, *map(str, size)],
+                command,
                 stdin=both,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.DEVNULL,
-                env={**os.environ, "PYTHONPATH": path, "OPENBLAS_NUM_THREADS": "1"},
+                env={**env, "OPENBLAS_NUM_THREADS": "1"},
             )
 
     def release(self):

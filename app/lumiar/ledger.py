@@ -21,6 +21,7 @@ from .notation import number
 SCHEMA = 1
 LIMIT = 1 << 26  # bytes of a report
 CHANGED = 0.10  # share of a cost beyond which it has changed, where the intervals do not overlap
+PARTS = {"name", "title", "metrics", "words", "points", "advice", "remarks", "pictures"}
 COLUMNS = ("study", "case", "variant", "metric", "error", "cost", "low", "high", "unit")
 TEXT = {
     "en": {
@@ -42,11 +43,13 @@ def read(path):
     """Return the report in a file; raise Mistake for what is none."""
     try:
         report = json.loads(read_bytes(path, LIMIT, "a report.json of `lumiar bench`"))
+        reason = f"schema {report['schema']}, not {SCHEMA}"
         if report["schema"] == SCHEMA:
             for one in report["studies"]:
                 [study.from_row(row) for row in one["points"]]
-            return report
-        reason = f"schema {report['schema']}, not {SCHEMA}"
+            if "made" in report and all({*one} >= PARTS for one in report["studies"]):
+                return report
+            reason = "parts of it are missing"
     except (ValueError, KeyError, TypeError, RecursionError):
         reason = "another kind of file, or an older one"
     raise Mistake(f"{path}: no report of `lumiar bench` ({reason}); name its report.json")

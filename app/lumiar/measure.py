@@ -13,6 +13,7 @@ from . import catalog, compose, layout, timing
 from .card import OnCard, compiled
 
 WIDTH = 1024  # pairs in a row of a texture
+PROGRAMS = 64  # kept, those that were used last: a model that is edited is another one every time
 TIMED = (256, 8)  # pixels a side and the least repeats of a timed run
 LONG = 4e-3  # seconds of a timed run: others rarely interrupt it, and its start does not count
 EMPTY = "// model   Nothing\nvec3 scatter(vec3 L, vec3 V) { return vec3(0.0); }\n"
@@ -183,7 +184,10 @@ class Instrument(OnCard):
         if key not in self._programs:
             program = compiled(self.context, compose.measured(model, constants, what, strict))
             self._programs[key] = program, self.context.vertex_array(program, [])
-        program, array = self._programs[key]
+        program, array = self._programs[key] = self._programs.pop(key)  # the last one used
+        if len(self._programs) > PROGRAMS:
+            for made in reversed(self._programs.pop(next(iter(self._programs)))):
+                made.release()
         for name, value in layout.packed(model, values, 0.0, "").items():
             if name in program:
                 program[name].write(value)

@@ -66,6 +66,11 @@ def shaders(scene):
     return *(one.model for one in scene.objects), *(one.kind for one in scene.lights)
 
 
+def uses_time(scene):
+    """Return whether a model or a light of a scene changes with its time."""
+    return any(p.widget == "time" for shader in shaders(scene) for p in shader.parameters)
+
+
 def sources(scene):
     """Return the paths of the files that a scene is made from, beside its own."""
     meshes = (one.mesh for one in scene.objects if os.path.isabs(one.mesh))

@@ -1,9 +1,7 @@
 """A plot of the window as a file: its numbers as a table, or a picture of it for a report."""
 
 import contextlib
-import itertools
 import math
-import os
 import pickle
 import subprocess
 import sys
@@ -15,7 +13,7 @@ import numpy as np
 from . import __version__, facing, gonio, measuring, panels, tables
 from .captions import TEXT
 from .errors import one_line
-from .files import write_whole
+from .files import python, write_whole
 
 PATIENCE = 20.0  # seconds for a picture that is being made when the window closes
 LOBES = ("polar", "curve", "lobe")  # the plots of f
@@ -102,10 +100,9 @@ class Painting:
         self._told, self._said = (tempfile.TemporaryFile() for _ in "io")  # noqa: SIM115  by release
         pickle.dump((drawn, lang, path), self._told)
         self._told.seek(0)
-        environment = {k: v for k, v in os.environ.items() if k != "LUMIAR_SUPERVISOR"}
-        command = [sys.executable, "-c", "from lumiar import plotfiles; plotfiles.paint()"]
+        command, env = python("-c", "from lumiar import plotfiles; plotfiles.paint()")
         pipes = {"stdin": self._told, "stdout": subprocess.DEVNULL, "stderr": self._said}
-        self._child = subprocess.Popen(command, env=environment, **pipes)
+        self._child = subprocess.Popen(command, env=env, **pipes)
 
     def release(self):
         """Wait for it, but not for ever."""
@@ -129,12 +126,6 @@ def paint():
     """Write the picture that a Painting asks for on the standard input."""
     drawn, lang, path = pickle.load(sys.stdin.buffer)  # from ourselves
     write_whole(path, [png(drawn, lang)])
-
-
-def unused(ending):
-    """Return the first of lumiar-plot-001, -002, … with this ending that is no file yet."""
-    paths = (f"lumiar-plot-{i:03}{ending}" for i in itertools.count(1))
-    return next(path for path in paths if not os.path.exists(path))
 
 
 def _points(drawn):

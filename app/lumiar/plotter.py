@@ -250,7 +250,7 @@ class Plots:
             imgui.set_clipboard_text(plotfiles.csv(self.drawn))
             self._said = (words["copied"], GREEN)
         elif pressed:
-            path = plotfiles.unused(f".{pressed}")
+            path = files.unused("lumiar-plot", f".{pressed}")
             try:
                 if pressed == "png":
                     self.painting = plotfiles.Painting(self.drawn, now.state.lang, path)

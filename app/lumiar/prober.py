@@ -24,8 +24,8 @@ class Prober:
     """
 
     def __init__(self, now):
-        self._context, self._instrument = now.stage.context, Instrument(now.stage.context)
-        self.found, self._seen, self._texts, self._picked = None, (None, None), set(), None
+        self._instrument = Instrument(now.stage.context)
+        self.found, self._seen, self._picked = None, (None, None), None
         self._fault, self._said = "", ""
 
     def release(self):
@@ -35,7 +35,7 @@ class Prober:
     def draw(self, now):
         """Draw the table and return the scene."""
         words, lang = captions.TEXT[now.state.lang]["probe"], now.state.lang
-        at = now.picked and tuple(map(int, now.picked))
+        at = tuple(map(int, now.picked)) if now.picked and now.shown else None
         inside = at and all(0 <= x < size for x, size in zip(at, now.shown.size, strict=True))
         if not inside:
             self.found, self._seen = None, (None, None)
@@ -65,11 +65,6 @@ class Prober:
 
     def _measure(self, now, at):
         """Probe the picture; a click chooses the object that it hits."""
-        texts = {one.model.text for one in now.shown.objects}
-        if not self._texts <= texts:  # one was edited: what was compiled from it goes
-            self._instrument.release()
-            self._instrument, self._texts = Instrument(self._context), set()
-        self._texts |= texts
         self._seen, self._fault, self._said = (now.shown, at), "", ""
         try:
             self.found = probe.measured(now.shown, at, now.stage.renderer, self._instrument)

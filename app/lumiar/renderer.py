@@ -95,12 +95,17 @@ class Renderer(OnCard):
         """
         (width, height), side = scene.size, math.isqrt(scene.samples)
         self._targets.check(width, height, side)
+        rows = min(rows or height, height - top)
         with self.context:
-            radiance, _ = self._targets.pair(width, rows or height, side, False)
-            radiance.viewport = (0, -top * side, width * side, height * side)
-            held = self._accumulated(scene, radiance, (0, top * side), "radiance")
-            picture.viewport = (0, top, width, min(rows or height, height - top))
-            self.present(scene, held, picture, top=top)
+            radiance, _ = self._targets.pair(width, height, side, False)
+            radiance.viewport, picture.viewport = (0, 0, *radiance.size), (0, 0, *scene.size)
+            radiance.scissor = (0, top * side, width * side, rows * side)
+            picture.scissor = (0, top, width, rows)  # in place, for the very same pixels
+            try:
+                held = self._accumulated(scene, radiance, (0, 0), "radiance")
+                self.present(scene, held, picture)
+            finally:
+                radiance.scissor = picture.scissor = None
 
     def forget(self, text=None):
         """Free the programs made with a GLSL file's text; look again at the files of meshes."""
@@ -134,6 +139,7 @@ class Renderer(OnCard):
             self.draw(scene, radiance, shift=shift, shows=shows)
             return radiance
         total = self._targets.sum(radiance.size)
+        total.scissor = radiance.scissor
         total.use()
         total.clear()
         array = self._screen("add", {})
@@ -169,11 +175,8 @@ class Renderer(OnCard):
             self.context.front_face = job.winding
             job.array.render(vertices=job.vertices)
 
-    def present(self, scene, radiance, picture, linear=False, top=0):
-        """Turn drawn radiance into pixels: mean of the samples, exposure, tone curve, sRGB.
-
-        top: the row of the picture at which the radiance begins.
-        """
+    def present(self, scene, radiance, picture, linear=False):
+        """Turn drawn radiance into pixels: mean of the samples, exposure, tone curve, sRGB."""
         constants = {
             "side": math.isqrt(scene.samples),
             "target": "linear" if linear else "display",
@@ -183,7 +186,6 @@ class Renderer(OnCard):
         array = self._screen("present", constants)
         if "rig_exposure" in array.program:
             array.program["rig_exposure"].value = scene.gain
-        array.program["rig_top"].value = top
         radiance.color_attachments[0].use(0)
         picture.use()
         self.context.enable_only(moderngl.NOTHING)

@@ -10,6 +10,7 @@ from .scene import Scene
 
 PROMPT = 0.04  # seconds that all pictures may take while they move
 PAPER = (0.16, 0.17, 0.2)  # between pictures
+LONG, SLICE = 0.15, 0.06  # seconds of a picture that is drawn some rows at a time; of those
 REST = 0.2  # seconds without a change before those that take longer are drawn in full
 
 
@@ -20,11 +21,13 @@ class Easel:
     view    (eye, target) of it
     fault   the line of what keeps the scene wanted from being drawn, or ""
     cost    seconds that the last whole picture took
-    coarse  whether the picture has one sample per pixel, as while it moves
+    coarse  whether the picture, or a part, has one sample per pixel, as while it moves
+    begun   whether rows of it are still to be drawn, by as many calls as that takes
     """
 
     def __init__(self, context):
         self.context, self.canvas = context, None
+        self.begun, self._top, self._rows, self._spent = False, 0, 0, 0.0
         self.good = self.shown = self.view = None
         self.fault, self.cost, self.coarse = "", 0.0, False
         self._drawn = None
@@ -49,6 +52,8 @@ class Easel:
         if self._drawn == (scene, fault, size) and self.coarse in (False, coarse):
             return False
         began = time.perf_counter()
+        if self._drawn != (scene, fault, size) or coarse or not self.begun:
+            self.begun, self._top, self._rows, self._spent = False, 0, 0, 0.0
         try:
             if scene is None:
                 raise Mistake(fault)
@@ -63,21 +68,32 @@ class Easel:
             self.good, self.fault = scene, ""
             self.view = renderer.viewpoint(self.shown)
         self.context.finish()
-        self.cost = self.cost if coarse else time.perf_counter() - began
-        self._drawn, self.coarse = (scene, fault, size), coarse
+        self._spent += time.perf_counter() - began
+        self.cost = self.cost if coarse or self.begun else self._spent
+        self._drawn, self.coarse = (scene, fault, size), coarse or self.begun
         return True
 
-    def _show(self, scene, size, coarse, renderer):
-        """Draw a scene into the canvas; return it as drawn."""
+    def _show(self, scene, size, coarse, renderer, whole=False):
+        """Draw a scene into the canvas, or the next rows of it; return it as drawn."""
         shown = hands.framed(scene, size)
         self._fit(size)
-        renderer.show(shown._replace(samples=1) if coarse else shown, self.canvas)
+        if coarse or whole or self.cost < LONG:
+            self.begun = False
+            renderer.show(shown._replace(samples=1) if coarse else shown, self.canvas)
+            return shown
+        if not self.begun:
+            self._rows = max(1, int(size[1] * SLICE / self.cost))
+        elif self._spent * self._rows < 0.5 * SLICE * self._top:  # less than those before took
+            self._rows *= 2
+        renderer.show(shown, self.canvas, self._top, self._rows)
+        self._top += self._rows
+        self.begun = self._top < size[1]
         return shown
 
     def _show_last(self, size, coarse, renderer):
         """Draw the last good scene, or the default one where there is none."""
         with contextlib.suppress(Mistake):  # larger than any picture can be
-            self.shown = self._show(self.good or Scene.default(), size, coarse, renderer)
+            self.shown = self._show(self.good or Scene.default(), size, coarse, renderer, True)
             self.view = renderer.viewpoint(self.shown)
 
     def _fit(self, size):
@@ -134,6 +150,11 @@ class Stage:
         return any(one.coarse for one in self.easels)
 
     @property
+    def begun(self):
+        """Whether rows of a picture that takes long are still to be drawn."""
+        return any(one.begun for one in self.easels)
+
+    @property
     def busy(self):
         """Whether a number is still to come."""
         return bool(self.deviation and self.deviation.busy)
@@ -182,7 +203,7 @@ class Stage:
             one.draw(picture.scene, picture.fault, place[2:], coarse, self.renderer)
             for one, picture, place in zip(self.easels, pictures, self.places, strict=True)
         ]
-        if any(drawn) and not coarse:
+        if any(drawn) and not self.coarse:
             self.cost = sum(one.cost for one in self.easels)
         if mode == "difference":
             if self.deviation is None:
@@ -190,7 +211,7 @@ class Stage:
 
                 self.deviation = Deviation(self.context)
             canvases = [one.canvas for one in self.easels]
-            self.deviation.follow(*canvases, any(drawn), coarse or since < REST)
+            self.deviation.follow(*canvases, any(drawn), self.coarse or since < REST)
         elif self.deviation:
             self._end_difference()
         if not self.fault:

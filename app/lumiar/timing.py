@@ -157,9 +157,12 @@ def queries(context):
     def measure(job):
         with context:  # which does not nest, and the job may open it too
             query.__enter__()
-        job()
+        try:
+            job()
+        finally:  # a query that goes on would spoil the next one
+            with context:
+                query.__exit__(None, None, None)
         with context:
-            query.__exit__(None, None, None)
             return (query.elapsed * 1e-9,) * 2
 
     return Clock("timer queries", 1, measure)

@@ -9,8 +9,9 @@ import re
 import select
 import signal
 import subprocess
-import sys
 import time
+
+from .files import python
 
 LIMIT = 2.0  # seconds of work for a small picture; where others work too, it may take LONGER
 LONGER = 5.0  # times
@@ -68,11 +69,7 @@ class Trial:
         """Have the process at hand."""
         if self._child or not self.works:
             return
-        own = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-        paths = os.pathsep.join(filter(None, (own, os.environ.get("PYTHONPATH"))))
-        env = {**os.environ, "PYTHONPATH": paths}
-        env.pop("LUMIAR_SUPERVISOR", None)
-        command = [sys.executable, "-c", CODE]
+        command, env = python("-c", CODE)
         pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
         try:
             self._child = subprocess.Popen(command, env=env, stderr=subprocess.DEVNULL, **pipes)

@@ -46,7 +46,7 @@ class Viewer:
         self.state = panel.State(lang=lang, tools=tuple(TOOLS))
         self.presenter, self.handles = presenter.Presenter(self.overlay), handles.Handles()
         self.presents = bool(self.document.stop)
-        self.fault, self.notice, self.titled = "", ("", 0.0), ""
+        self.fault, self.notice = "", ("", 0.0)
         self.moved = self.awake = 0.0
         self.pointer, self._seen = Pointer(self.stage, self.document.beside), None
         self.with_panel, self.with_keys, self.due = True, False, FRAMES
@@ -135,6 +135,7 @@ class Viewer:
         left, size = self._area()
         self.stage.draw(self.document.beside, self.scene, size, now - self.moved)
         self.pointer.keep(left)
+        self.due = max(self.due, self.stage.begun)
         self.trial.expect(size, self.stage.cost)
         if self.stage.busy:
             self.state.wake = min(self.state.wake, now + IDLE)
@@ -143,10 +144,7 @@ class Viewer:
         self.stage.present(self.overlay, left)
         self.overlay.widgets(imgui.get_draw_data(), desktop.context.screen, desktop.size)
         desktop.show()
-        title = f"{self.document.name} · Lumiar".removeprefix(" · ")
-        if title != self.titled:
-            desktop.title(title)
-            self.titled = title
+        desktop.title(f"{self.document.name} · Lumiar".removeprefix(" · "))
 
     def _area(self):
         """Return (left, (width, height)) in pixels of where the picture goes."""
@@ -257,6 +255,7 @@ class Viewer:
             self.drawer.toggle(_TOOL_KEYS[key])
         elif key == glfw.KEY_F5:
             self.stage.restart()
+            self.trial.forget()
             self._reload(None)
         elif key == glfw.KEY_F12:
             self._screenshot()

@@ -3,7 +3,6 @@
 
 uniform sampler2D rig_radiance;
 uniform float rig_exposure;   // factor on the radiance, 2^EV
-uniform int rig_top;          // the row of the picture at which the radiance begins
 
 uniform int side = 1;         // [1, 8]: samples along each side of a pixel
 uniform int target = 0;       // {display, linear}: sRGB for eyes, or radiance for arithmetic
@@ -13,7 +12,7 @@ uniform bool exposed = true;  // toggle: exposed at all
 out vec4 rig_out;  // alpha 0 marks a pixel whose radiance is NaN or infinite
 
 void main() {
-    ivec2 pixel = (ivec2(gl_FragCoord.xy) - ivec2(0, rig_top)) * side;
+    ivec2 pixel = ivec2(gl_FragCoord.xy) * side;
     vec3 L = vec3(0.0);
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) L += texelFetch(rig_radiance, pixel + ivec2(x, y), 0).rgb;
