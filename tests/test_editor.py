@@ -8,7 +8,7 @@ import pytest
 from hand import Spy
 from test_window import MODEL, plain, press, save, settle, shown
 
-from lumiar import Scene, arguments, editor, gallery, verbs
+from lumiar import Scene, arguments, editor, gallery, labels, verbs
 from lumiar.desktop import glfw
 from lumiar.document import Document
 from lumiar.errors import Mistake
@@ -48,7 +48,8 @@ def look(monkeypatch):
     def looked(one):
         spy = Spy()
         with monkeypatch.context() as patch:
-            patch.setattr(editor, "imgui", spy)
+            for module in (editor, labels):
+                patch.setattr(module, "imgui", spy)
             one.due = 1
             one.frame()
         return spy

@@ -7,7 +7,7 @@ from hand import Spy
 from test_plots import click, point, tool
 from test_window import drag, plain, press, save, settle
 
-from lumiar import prober, readout, scenefile
+from lumiar import labels, panel, prober, readout, scenefile
 from lumiar.desktop import glfw
 from lumiar.window import Viewer
 
@@ -27,7 +27,9 @@ def said(one, monkeypatch):
     one.moved, one.due = 0.0, 1
     one.frame()
     with monkeypatch.context() as patch:
-        patch.setattr(prober, "imgui", spy)
+        patch.setattr(panel, "draw", lambda scene, *_: scene)  # it writes with labels, too
+        for module in (prober, labels):
+            patch.setattr(module, "imgui", spy)
         one.due = 1
         one.frame()
     return spy

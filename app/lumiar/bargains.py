@@ -16,18 +16,10 @@ from .notation import number
 from .uses import used
 
 OWN, SHIPPED = os.path.join("bench", "report.json"), ("docs", "bench", "report.json")
-USED, LESS = (1.0, 0.8, 0.35), (0.62, 0.66, 0.72)  # colours: the scene's, all that is by the way
+USED, LESS = charts.AMBER, charts.DIM  # colours: the scene's, all that is by the way
 MARKERS = (  # of ImPlot, and the letters that look so: on the front, beside it
     *(("circle", "●○"), ("square", "■□"), ("up", "▲△"), ("diamond", "◆◇"), ("down", "▼▽")),
     *(("left", "◀◁"), ("right", "▶▷")),
-)
-_FIXED = implot.AxisFlags_.lock | implot.AxisFlags_.no_menus | implot.AxisFlags_.no_highlight
-_FLAGS = (
-    implot.Flags_.no_title
-    | implot.Flags_.no_menus
-    | implot.Flags_.no_box_select
-    | implot.Flags_.no_mouse_text
-    | implot.Flags_.no_legend
 )
 
 
@@ -148,12 +140,12 @@ class Bargains:
 def _plot(points, mine, metric, names, words, lang):
     """Draw errors against costs on logarithmic axes, those of the scene with a ring."""
     em, width = imgui.get_font_size(), imgui.get_content_region_avail().x
-    if not implot.begin_plot("##bargain", (width, max(12.0 * em, 0.62 * width)), _FLAGS):
+    if not implot.begin_plot("##bargain", (width, max(12.0 * em, 0.62 * width)), charts.FLAGS):
         return
     x = fitted([end for p in points for end in (p.cost, p.high)], 0.7 * width)
     y = fitted([p.error for p in points], 0.45 * width, 12.0)
     low = (x.low / 2.0 if x.zero else x.low, y.low / 4.0 if y.zero else y.low)
-    implot.setup_axes(words[points[0].unit], words["error"], _FIXED, _FIXED)
+    implot.setup_axes(words[points[0].unit], words["error"], charts.FIXED, charts.FIXED)
     for axis, one, start in zip((implot.ImAxis_.x1, implot.ImAxis_.y1), (x, y), low, strict=True):
         implot.setup_axis_scale(axis.value, implot.Scale_.log10.value)
         implot.setup_axis_limits(axis.value, start, one.high, implot.Cond_.always)

@@ -20,8 +20,8 @@ CHANNELS = (("R", (1.0, 0.4, 0.35)), ("G", (0.4, 0.85, 0.45)), ("B", (0.45, 0.65
 AMBER, WHITE, GREEN = (1.0, 0.8, 0.35), (1.0, 1.0, 1.0), (0.6, 0.9, 0.6)
 DIM, FAINT = (0.62, 0.66, 0.72), (0.3, 0.32, 0.36)
 EDGE = 1.32  # of a polar plot whose circle has radius 1
-_FIXED = implot.AxisFlags_.lock | implot.AxisFlags_.no_menus | implot.AxisFlags_.no_highlight
-_FLAGS = (
+FIXED = implot.AxisFlags_.lock | implot.AxisFlags_.no_menus | implot.AxisFlags_.no_highlight
+FLAGS = (
     implot.Flags_.no_title
     | implot.Flags_.no_menus
     | implot.Flags_.no_box_select
@@ -59,10 +59,10 @@ class Charts:
 
     def polar(self, size, shown, scale, marks, value, _):
         """Draw Curves around the normal, on a Scale; value: f toward the V marked, or None."""
-        if not implot.begin_plot("##polar", size, _FLAGS | implot.Flags_.equal):
+        if not implot.begin_plot("##polar", size, FLAGS | implot.Flags_.equal):
             return None
         most, em = _reach(shown), imgui.get_font_size()
-        bare = _FIXED | implot.AxisFlags_.no_decorations
+        bare = FIXED | implot.AxisFlags_.no_decorations
         implot.setup_axes("", "", bare, bare)
         low = -0.16 if most == 90 else -EDGE
         implot.setup_axes_limits(-EDGE, EDGE, low, EDGE, implot.Cond_.always)
@@ -87,12 +87,12 @@ class Charts:
 
     def cartesian(self, size, shown, scale, marks, value, words):
         """Draw Curves against the angle of view; see `polar`."""
-        if not implot.begin_plot("##curve", size, _FLAGS):
+        if not implot.begin_plot("##curve", size, FLAGS):
             return None
         most = _reach(shown)
         wide = imgui.calc_text_size(words["view"]).x > 0.85 * size[0]
         title = words["plots"]["view"] if wide else words["view"]
-        implot.setup_axes(title, words["f"], _FIXED, _FIXED)
+        implot.setup_axes(title, words["f"], FIXED, FIXED)
         low, high = (scale.low, scale.high) if scale.log else (0.0, 1.02 * scale.high)
         if scale.log:
             implot.setup_axis_scale(implot.ImAxis_.y1.value, implot.Scale_.log10.value)
@@ -119,12 +119,12 @@ class Charts:
 
         One alone is drawn in its channels, where they differ.
         """
-        if not implot.begin_plot("##shares", size, _FLAGS):
+        if not implot.begin_plot("##shares", size, FLAGS):
             return None
         lines = [line for one, colour in shown for line in _channels(one, colour, len(shown) == 1)]
         tops = [np.max(y, initial=0.0, where=np.isfinite(y)) for _, _, y, _, _ in lines]
         top = 1.05 * float(min(10.0, max(1.0, *tops, 1.0)))
-        implot.setup_axes(*titles, _FIXED, _FIXED)
+        implot.setup_axes(*titles, FIXED, FIXED)
         implot.setup_axes_limits(0.0, 90.0, 0.0, top, implot.Cond_.always)
         step = 15 if size[0] > 24.0 * imgui.get_font_size() else 30
         _ticks(implot.ImAxis_.x1, {x: _degrees(x) for x in range(0, 91, step)})

@@ -7,11 +7,10 @@ from imgui_bundle import imgui
 from . import captions, examine, hostile, measure
 from .auditor import Auditor
 from .errors import Mistake
-from .labels import BRIGHT, DIM
+from .labels import BAD, BRIGHT, DIM, GOOD, WHITE
 from .phrases import TEXT
 from .stopwatch import Stopwatch
 
-GOOD, BAD, WHITE = (0.5, 0.9, 0.55, 1.0), (1.0, 0.55, 0.5, 1.0), (1.0, 1.0, 1.0, 1.0)
 LOOK = 0.25  # seconds between two looks at what is still being audited
 _FLAGS = imgui.TableFlags_.row_bg | imgui.TableFlags_.sizing_stretch_prop
 

@@ -9,6 +9,7 @@ from . import opening
 from .codearea import Code
 from .errors import Mistake, one_line
 from .files import shortened
+from .labels import BAD, DIM, wrapped
 from .phrases import TEXT
 from .settings import changed
 from .texts import ships, write_text
@@ -23,7 +24,6 @@ vec3 scatter(vec3 L, vec3 V) {
     return albedo / PI * pow(max(L.z, 0.0), k);
 }
 """
-_RED, _DIM = (1.0, 0.55, 0.5, 1.0), (0.62, 0.66, 0.72, 1.0)
 _WHERE = re.compile(r"(.+?):(\d+): (.*)", re.DOTALL)
 
 
@@ -53,7 +53,7 @@ class Editor:
         try:
             text = document.texts.text(self.path)
         except Mistake as mistake:
-            self._say(shortened(str(mistake)), _RED)
+            wrapped(shortened(str(mistake)), BAD)
         else:
             self._text(now, text, words)
         return made or document.scene
@@ -123,7 +123,7 @@ class Editor:
         imgui.same_line()
         if _button(words["revert"], words["revert tip"], edited):
             self._read(document, document.texts.forget)
-        self._say(said, _DIM)
+        wrapped(said, DIM)
         return self._name_field(now, words) if self._asked else None
 
     def _ask(self, what, words):
@@ -196,16 +196,16 @@ class Editor:
         """Say what has to be decided about the file, with a button for each way."""
         texts, path = document.texts, self.path
         if self._refused:
-            self._say(self._refused, _RED)
+            wrapped(self._refused, BAD)
         if path in texts.moved:
-            self._say(words["moved"], _RED)
+            wrapped(words["moved"], BAD)
             if _button(words["theirs"], ""):
                 self._read(document, texts.forget)
             imgui.same_line()
             if _button(words["mine"], ""):
                 texts.keep(path)
         elif texts.left(path):
-            self._say(words["left"], _DIM)
+            wrapped(words["left"], DIM)
             if _button(words["take"], ""):
                 self._read(document, texts.take)
             imgui.same_line()
@@ -222,20 +222,13 @@ class Editor:
         if not fault:
             return
         found = _WHERE.match(fault)
-        self._say(shortened(fault), _RED)
+        wrapped(shortened(fault), BAD)
         if found and imgui.is_item_hovered():
             imgui.set_tooltip(words["go"])
         if found and imgui.is_item_clicked() and os.path.isfile(found.group(1)):
             self.path = os.path.abspath(found.group(1))
             if self.path in self.sheets:
                 self.sheets[self.path].seeks = True
-
-    def _say(self, text, color):
-        imgui.push_text_wrap_pos(0.0)
-        imgui.push_style_color(imgui.Col_.text, color)
-        imgui.text_unformatted(text)
-        imgui.pop_style_color()
-        imgui.pop_text_wrap_pos()
 
 
 def _chosen(scene, state):

@@ -45,16 +45,11 @@ def between(parameter, start, end, share):
     """Return the value of a Parameter at a share of the way from start to end."""
     if share in (0.0, 1.0):
         return end if share else start
-    if logarithmic(parameter) and start > 0.0 and end > 0.0:
+    if parameter.logarithmic and start > 0.0 and end > 0.0:
         value = start * (end / start) ** share
     else:
         value = start + (end - start) * share
     return round(value) if parameter.type == "int" else value
-
-
-def logarithmic(parameter):
-    """Return whether the slider of a Parameter is one of factors."""
-    return parameter.log or (parameter.low > 0.0 and parameter.high / parameter.low >= 1e3)
 
 
 class Film:

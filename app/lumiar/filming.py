@@ -8,13 +8,12 @@ from imgui_bundle import imgui
 from . import editing, film, hands, labels, picture, scenefile, settings, widgets
 from .errors import Mistake, one_line
 from .files import unused
-from .labels import BRIGHT, DIM
+from .labels import BAD, BRIGHT, DIM, GOOD
 from .parameter import Parameter
 from .parts import SCENE
 from .phrases import TEXT
 
 KINDS = ("turntable", "sweep")
-BAD, GOOD = (1.0, 0.55, 0.5, 1.0), (0.5, 0.9, 0.55, 1.0)
 _COUNT = Parameter("frames", "int", 60, low=2, high=240, open=(False, True))
 _RATE = Parameter("rate", "float", 25.0, low=1.0, high=50.0)
 _SIZE = SCENE["size"]._replace(default=(640, 480), low=16, high=film.MOST)

@@ -6,6 +6,7 @@ from .notation import symbol
 
 DIM = (0.62, 0.66, 0.72, 1.0)
 BRIGHT = (1.0, 0.85, 0.5, 1.0)  # of symbols
+GOOD, BAD, WHITE = (0.5, 0.9, 0.55, 1.0), (1.0, 0.55, 0.5, 1.0), (1.0, 1.0, 1.0, 1.0)
 _SMALL = 0.72  # of the size of letters
 
 
@@ -124,6 +125,13 @@ def pick(key, current, options):
         if option != current:
             imgui.pop_style_color()
     return chosen
+
+
+def wrapped(text, colour=WHITE):
+    """Write a text in as many lines as it takes."""
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text_colored(colour, text)
+    imgui.pop_text_wrap_pos()
 
 
 def gesture(state):

@@ -12,7 +12,6 @@ from .words import TEXT
 
 FONT = os.path.join(ASSETS, "fonts", "DejaVuSans.ttf")
 ALL = (sections.objects, sections.lights, sections.picture, sections.camera)
-_RED = (1.0, 0.55, 0.5, 1.0)
 
 
 @dataclass
@@ -70,7 +69,7 @@ def prepare(size=16.0):
     for grab in (imgui.Col_.slider_grab, imgui.Col_.slider_grab_active):
         style.set_color_(grab, (0.2, 0.42, 0.75, 1.0))
     style.set_color_(imgui.Col_.button, (0.16, 0.38, 0.68, 1.0))
-    style.set_color_(imgui.Col_.text_disabled, (0.62, 0.66, 0.72, 1.0))
+    style.set_color_(imgui.Col_.text_disabled, labels.DIM)
 
 
 def draw(scene, state, parts=ALL):
@@ -109,9 +108,7 @@ def _top(state, words):
         imgui.same_line()
     imgui.new_line()
     if state.message:
-        imgui.push_text_wrap_pos(0.0)
-        imgui.text_colored(_RED, state.message)
-        imgui.pop_text_wrap_pos()
+        labels.wrapped(state.message, labels.BAD)
         if imgui.small_button(words["close"]):
             state.message = ""
 

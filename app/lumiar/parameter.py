@@ -46,6 +46,11 @@ class Parameter(NamedTuple):
         """Whether the value is compiled in rather than set while running."""
         return self.widget in ("choice", "toggle")
 
+    @property
+    def logarithmic(self):
+        """Whether its slider goes by equal factors: it says so, or spans three decades."""
+        return self.log or (self.low > 0.0 and self.high / self.low >= 1e3)
+
     def allowed(self):
         """Return in words which values this parameter takes."""
         if self.widget == "choice":

@@ -25,7 +25,6 @@ GRAZING = 89.0
 LOOK = 0.1  # seconds between two looks at what is being made
 CALM = 0.35  # seconds without a change after which a scale may shrink
 KINDS = ("polar", "curve", "lobe", "albedo", "fresnel")
-RED, GREEN = (1.0, 0.55, 0.5, 1.0), (0.6, 0.9, 0.6, 1.0)
 
 
 class Plots:
@@ -44,7 +43,7 @@ class Plots:
         self._same, self._log = False, None
         self._scale, self._scaled, self._changed = None, (), 0.0
         self._held = False
-        self._said, self.painting = ("", RED), None
+        self._said, self.painting = ("", labels.BAD), None
 
     def release(self):
         """Free what is on the card, and what ImPlot has; what is being saved is waited for."""
@@ -125,7 +124,9 @@ class Plots:
         whole = kind == "polar" and any(one.highest > 90.0 for one in models)
         high = width * (1.0 if whole else 0.62 if kind == "polar" else 0.72)
         size = (width, max(9.0 * em, min(high, room - 14.0 * em)))
-        colours = {one.label: charts.COLOURS[i % 7] for i, one in enumerate(models)}
+        colours = {
+            one.label: charts.COLOURS[i % len(charts.COLOURS)] for i, one in enumerate(models)
+        }
         shown = [(one, colours[one.label]) for one in drawn.shown]
         marks = charts.marks(drawn.aim, drawn.pixel)
         if kind in ("albedo", "fresnel"):
@@ -153,28 +154,28 @@ class Plots:
         """Say what is looked at and what was found there, or how to look at something."""
         sight, pixel, faults = self.sight, self.drawn.pixel, self._bench.faults
         for fault in dict.fromkeys(faults):
-            _lines(fault, RED)
+            labels.wrapped(fault, labels.BAD)
         if self.kind == "fresnel":
             for one in models:
                 if "F_facet" not in one.shader.defines:
-                    _lines(words["no fresnel"].format(one.label), labels.DIM)
+                    labels.wrapped(words["no fresnel"].format(one.label), labels.DIM)
         if pixel:
             L, V = pixel
             angles = (facing.theta(L), facing.theta(V), facing.turn(L, V))
-            _lines(words["at"].format(*sight.pixel, *angles))
+            labels.wrapped(words["at"].format(*sight.pixel, *angles))
             f, off = self.value(models[0]), abs(self.drawn.aim.angle(L)[1])
             if f is not None:
                 _large(f"f(L, V) = {readout.number(units.luminance(f) / units.EFFICACY)} sr⁻¹")
             if L[2] < 0.0 and not models[0].shader.transmits:
-                _lines(words["below"], labels.DIM)
+                labels.wrapped(words["below"], labels.DIM)
             elif self.kind in ("polar", "curve") and off >= 1.0:
-                _lines(words["off"].format(off), labels.DIM)
+                labels.wrapped(words["off"].format(off), labels.DIM)
         elif sight.follows and sight.pixel:
             there = sight.facing
             why = "background" if not there else "other" if there.lights else "around"
-            _lines(words[why], labels.DIM)
+            labels.wrapped(words[why], labels.DIM)
         else:
-            _lines(words["hint"], labels.DIM)
+            labels.wrapped(words["hint"], labels.DIM)
 
     def _ask_light(self, scene, one, words):
         """Ask where the light comes from, and for the scale of f."""
@@ -231,7 +232,7 @@ class Plots:
             try:
                 self.others.append((catalog.read("model", name), None, ""))
             except Mistake as mistake:
-                self._said = (one_line(mistake), RED)
+                self._said = (one_line(mistake), labels.BAD)
         if any(values is None for _, values, _ in self.others):
             self._same = imgui.checkbox(words["same"], self._same)[1]
 
@@ -248,7 +249,7 @@ class Plots:
         imgui.end_disabled()
         if pressed == "copy":
             imgui.set_clipboard_text(plotfiles.csv(self.drawn))
-            self._said = (words["copied"], GREEN)
+            self._said = (words["copied"], labels.GOOD)
         elif pressed:
             path = files.unused("lumiar-plot", f".{pressed}")
             try:
@@ -257,19 +258,19 @@ class Plots:
                     self._said = (words["saving"].format(path), labels.DIM)
                 else:
                     files.write_whole(path, [plotfiles.csv(self.drawn).encode()])
-                    self._said = (words["saved"].format(path), GREEN)
+                    self._said = (words["saved"].format(path), labels.GOOD)
             except OSError as error:
-                self._said = (one_line(error), RED)
+                self._said = (one_line(error), labels.BAD)
         self._paint(now, words)
         if self._said[0]:
-            _lines(*self._said)
+            labels.wrapped(*self._said)
 
     def _paint(self, now, words):
         """See whether the picture that is being made is there."""
         fault = self.painting.end() if self.painting else None
         if fault is not None:
-            saved = (words["saved"].format(self.painting.path), GREEN)
-            self._said = (fault, RED) if fault else saved
+            saved = (words["saved"].format(self.painting.path), labels.GOOD)
+            self._said = (fault, labels.BAD) if fault else saved
             self.painting.release()
             self.painting = None
         elif self.painting:
@@ -283,12 +284,6 @@ def _label(text):
     imgui.text(text)
     imgui.same_line(begin + 6.0 * em)
     imgui.set_next_item_width(-0.5 * em)
-
-
-def _lines(text, colour=(1.0, 1.0, 1.0, 1.0)):
-    imgui.push_text_wrap_pos(0.0)
-    imgui.text_colored(colour, text)
-    imgui.pop_text_wrap_pos()
 
 
 def _large(text):

@@ -159,11 +159,7 @@ def _lit(point, number, own):
     albedo, exact = None, light.kind.name in units.UNIFORM
     way = facing.to_light(point.scene, light, point.at, point.renderer)
     if way:
-        turn = math.degrees(facing.azimuth(way) - facing.azimuth(V))
-        found |= {
-            "theta_i_deg": facing.theta(way),
-            "azimuth_deg": abs((turn + 180.0) % 360.0 - 180.0),
-        }
+        found |= {"theta_i_deg": facing.theta(way), "azimuth_deg": facing.turn(way, V)}
         f = reflectance.bidirectional(*point.material, way, V)
         angles = [math.radians(facing.theta(way))]
         albedo = reflectance.albedo(*point.material, angles, facing.azimuth(way))[0]

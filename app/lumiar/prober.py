@@ -4,12 +4,11 @@ from imgui_bundle import imgui
 
 from . import banner, captions, probe, readout
 from .errors import Mistake, one_line
-from .labels import DIM
+from .labels import BAD, DIM, GOOD, WHITE, wrapped
 from .measure import Instrument
 
 REST = 0.25  # seconds after which it is looked whether all is at rest
 WIDE = 26.0  # sizes of letters from which four columns can be read
-RED, GREEN, WHITE = (1.0, 0.55, 0.5, 1.0), (0.6, 0.9, 0.6, 1.0), (1.0, 1.0, 1.0, 1.0)
 _FLAGS = (
     imgui.TableFlags_.row_bg
     | imgui.TableFlags_.borders_inner_v
@@ -39,7 +38,7 @@ class Prober:
         inside = at and all(0 <= x < size for x, size in zip(at, now.shown.size, strict=True))
         if not inside:
             self.found, self._seen = None, (None, None)
-            _write(words["click"], DIM)
+            wrapped(words["click"], DIM)
             return now.scene
         stale = self._seen[0] is not now.shown or self._seen[1] != at
         if stale and now.rests:
@@ -49,7 +48,7 @@ class Prober:
             now.state.wake = min(now.state.wake, now.time + REST)
         banner.ring(now.corner, at)
         if self._fault:
-            _write(self._fault, RED)
+            wrapped(self._fault, BAD)
         if self.found:
             name = now.document.name
             imgui.push_style_var(imgui.StyleVar_.alpha, 0.5 if stale else 1.0)
@@ -60,7 +59,7 @@ class Prober:
                 self._said = words["copied"]
             if self._said:
                 imgui.same_line()
-                imgui.text_colored(GREEN, self._said)
+                imgui.text_colored(GOOD, self._said)
         return now.scene
 
     def _measure(self, now, at):
@@ -85,7 +84,7 @@ class Prober:
         for rows in lights:  # one light is a column: there is more room below than beside
             imgui.dummy((1.0, 0.5 * imgui.get_font_size()))
             _table("lights", [[*column] for column in zip(*rows, strict=True)], 1)
-            _write(words["angles"], DIM)
+            wrapped(words["angles"], DIM)
 
 
 def _table(name, rows, heads, about=1):
@@ -95,7 +94,7 @@ def _table(name, rows, heads, about=1):
             imgui.table_next_row()
             for k, text in enumerate(row):
                 imgui.table_next_column()
-                _write(text.strip(), DIM if k < about or i < heads else WHITE)
+                wrapped(text.strip(), DIM if k < about or i < heads else WHITE)
         imgui.end_table()
 
 
@@ -103,13 +102,7 @@ def _blocks(rows):
     """Draw a table below each other: what a row is, its first two values, then the third."""
     (_, *_, third), *rows = rows
     for i, (about, *values, rgb) in enumerate(rows):
-        _write(about.strip(), DIM)
+        wrapped(about.strip(), DIM)
         _table(str(i), [values], 0, 0)
-        _write(f"{third}: {rgb}", WHITE)
+        wrapped(f"{third}: {rgb}", WHITE)
         imgui.dummy((1.0, 0.2 * imgui.get_font_size()))
-
-
-def _write(text, colour):
-    imgui.push_text_wrap_pos(0.0)
-    imgui.text_colored(colour, text)
-    imgui.pop_text_wrap_pos()

@@ -62,8 +62,7 @@ def _numbers(one, value, words):
         return _components(one, value, whole, _AXES)
     most = _FAR_INT if whole else _FAR
     low, high = max(-most, one.low), min(most, one.high)
-    wide = low > 0.0 and high / low >= 1e3
-    flags = imgui.SliderFlags_.logarithmic if one.log or wide else 0
+    flags = imgui.SliderFlags_.logarithmic if one.logarithmic else 0
     if whole:
         ends = math.ceil(low), math.floor(high)
         changed, new = imgui.slider_int("##value", value, *ends, f"%d{ending}", flags)
