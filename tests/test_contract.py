@@ -46,6 +46,13 @@ def test_what_is_never_closed_is_told_with_its_line(text, line, why):
     assert told(text).startswith(f"{line}: ") and why in told(text)
 
 
+@pytest.mark.parametrize("line", ["float índice = 1.0;", "float f() { return 1.0 − 2.0; }"])
+def test_letters_that_drivers_stumble_over_are_told_with_their_line(line):
+    letter = next(one for one in line if not one.isascii())
+    assert told(f"// ação\n{SCATTER}{line}\n").startswith(f"3: '{letter}' (U+")
+    assert told(f"{SCATTER}uniform float é = 1.0;  // [0, 1]: é\n").startswith("2: 'é' (U+00E9)")
+
+
 @pytest.mark.parametrize(
     "head",
     [

@@ -34,10 +34,19 @@ def draw(area, time, caption, fault, done):
 
 
 def keys(area, lines):
-    """Draw a table of (keys, what they do) in the middle of a picture's area."""
+    """Draw a table of (keys, what they do) in the middle of a picture's area, as large as fits.
+
+    Where that is narrow, in the middle of the window.
+    """
     left, width, height = area
+    room, em = imgui.get_io().display_size.x, imgui.get_font_size()
+    wide = sum(max(imgui.calc_text_size(line[i]).x for line in lines) for i in (0, 1)) + 4.0 * em
+    high = len(lines) * (imgui.get_text_line_height() + 0.4 * em) + 2.0 * em
+    if wide > width:
+        left, width = 0.0, room
     imgui.set_next_window_pos((left + width / 2.0, height / 2.0), 0, (0.5, 0.5))
     imgui.set_next_window_bg_alpha(0.92)
+    imgui.push_font(None, em * min(1.0, width / wide, height / high))
     imgui.begin("##keys", None, FLAGS)
     if imgui.begin_table("##lines", 2, imgui.TableFlags_.sizing_fixed_fit):
         for line in lines:
@@ -47,6 +56,7 @@ def keys(area, lines):
                 imgui.text(text)
         imgui.end_table()
     imgui.end()
+    imgui.pop_font()
 
 
 def ring(corner, pixel):

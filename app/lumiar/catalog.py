@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from .errors import Mistake, nearest
 from .files import GLSL, read_text
-from .glsltext import check_comments, without_comments
+from .glsltext import check_comments, check_letters, without_comments
 from .parameter import TINT, Parameter, parse_uniform
 
 SOURCE_LIMIT = 1 << 20  # bytes of one GLSL file; a longer one is refused before any driver sees it
@@ -200,6 +200,7 @@ def parse(kind, name, path, text, edited=False):
 
         check_comments(text, path)
     code, lines = without_comments(text), text.split("\n")
+    check_letters(code, path)
     parameters, given = {}, []
     for number, bare in enumerate(code.split("\n"), 1):
         if not _UNIFORM.search(bare) or (kind == "rig" and "rig_" in bare):

@@ -111,9 +111,17 @@ class Datasheet:
         if "fault" in sheet:
             imgui.text_colored(BAD, sheet["fault"])
             return
-        _row(("", *words["claim"]), (DIM,) * 4)
+        rows = [("", *words["claim"])]
         for name, said in sheet["claims"].items():
-            self._claim(names, words, names[name], said)
+            sign = "✓" if said["verdict"].startswith("holds") else "✗"
+            claimed = names.get(said["claimed"], said["claimed"])
+            rows.append((sign, names[name], claimed, names[said["verdict"]]))
+        places, letters = _columns(rows)
+        _row(rows[0], (DIM,) * 4, places, letters)
+        for row, said in zip(rows[1:], sheet["claims"].values(), strict=True):
+            color = GOOD if row[0] == "✓" else DIM if said["agrees"] else BAD
+            _row(row, (color, WHITE, WHITE, color), places, letters)
+            self._found(said, words)
         for line in sheet["broken"]:
             imgui.text_colored(BAD, _told(line, words))
         hard = sheet["hostile"]
@@ -121,12 +129,8 @@ class Datasheet:
         number = f"{hard['evaluations']:,}".replace(",", " ")
         imgui.text_colored(DIM, words["counted"].format(number, *counts))
 
-    def _claim(self, names, words, name, said):
-        holds, em = said["verdict"].startswith("holds"), imgui.get_font_size()
-        color = GOOD if holds else DIM if said["agrees"] else BAD
-        claimed = names.get(said["claimed"], said["claimed"])
-        texts = "✓" if holds else "✗", name, claimed, names[said["verdict"]]
-        _row(texts, (color, WHITE, WHITE, color))
+    def _found(self, said, words):
+        em = imgui.get_font_size()
         if said["worst"] > 0.0:
             imgui.indent(1.5 * em)
             imgui.text_colored(DIM, _told(f"{said['what']} ({said['where']})", words))
@@ -167,15 +171,28 @@ class Datasheet:
         imgui.text_colored(DIM, self.driver)
 
 
-def _row(texts, colors):
-    """Write a sign and three texts side by side."""
+def _columns(rows):
+    """Return where the columns of rows of a sign and three texts begin, and how large letters are.
+
+    They are smaller where not all of it would stand side by side.
+    """
     width, em = imgui.get_content_region_avail().x, imgui.get_font_size()
-    places = (0.0, 1.5 * em, 0.36 * width, 0.68 * width)
+    texts = zip(*rows, strict=True)
+    wide = [max(imgui.calc_text_size(text).x for text in column) + 0.7 * em for column in texts]
+    share, more = min(1.0, width / sum(wide)), max(0.0, width - sum(wide)) / 3.0
+    first, second, third, _ = (share * one for one in wide)
+    return (0.0, first, first + second + more, first + second + third + 2.0 * more), share * em
+
+
+def _row(texts, colors, places, letters):
+    """Write a sign and three texts side by side."""
     begin = imgui.get_cursor_pos_x()
+    imgui.push_font(None, letters)
     for text, color, place in zip(texts, colors, places, strict=True):
         if place:
             imgui.same_line(begin + place)
         imgui.text_colored(color, text)
+    imgui.pop_font()
 
 
 def _table(name, rows):

@@ -12,6 +12,7 @@ TOOLS = {
     **{"editor": "F7", "film": "F8", "study": "F9"},
 }
 WIDE, NARROWEST = 0.34, 18.0  # share of the window, and the least in sizes of letters
+WIDEST = 0.7  # share of what the panel leaves
 WIDER = {"editor": 0.42}  # share for what has long lines
 
 
@@ -56,6 +57,7 @@ class Drawer:
 
     def __init__(self):
         self._made, self.open, self.width = {}, "", 0.0
+        self._kept = {}  # {tool: (room and letters, share of that room, width)}
 
     def release(self):
         """Free what the tools have."""
@@ -83,15 +85,20 @@ class Drawer:
         room, height = area.work_size
         right = area.work_pos.x + room
         imgui.set_next_window_pos((right, area.work_pos.y), 0, (1.0, 0.0))
-        wide = max(NARROWEST * em, WIDER.get(self.open, WIDE) * room)
-        imgui.set_next_window_size((wide, height), imgui.Cond_.once)
-        most = max(NARROWEST * em, 0.7 * room)
-        imgui.set_next_window_size_constraints((NARROWEST * em, height), (most, height))
+        name, least, first = self.open, NARROWEST * em, WIDER.get(self.open, WIDE)
+        known, share, before = self._kept.get(name, (None, first, 0.0))
+        if known != (room, em):  # it keeps its share of a window that has another size
+            imgui.set_next_window_size((max(least, share * room), height))
+        most = max(least, WIDEST * (room - now.state.width))
+        imgui.set_next_window_size_constraints((least, height), (most, height))
         flags = imgui.WindowFlags_.no_move | imgui.WindowFlags_.no_collapse
         title = f"{TEXT[now.state.lang]['tools'][self.open]}###{self.open}"
         shown, stays = imgui.begin(title, True, flags | imgui.WindowFlags_.no_saved_settings)
         scene = self.tool.draw(now) if shown else now.scene
         self.width = imgui.get_window_width()
+        if known == (room, em) and self.width != before:  # by hand
+            share = self.width / room
+        self._kept[name] = (room, em), share, self.width
         imgui.end()
         if not stays:
             self.open = ""

@@ -43,6 +43,14 @@ def check_comments(text, path):
         raise Mistake(f"{path}:{text.count(chr(10), 0, found.start()) + 1}: {why}")
 
 
+def check_letters(code, path):
+    """Raise Mistake for what comment-free GLSL cannot have: drivers then name another place."""
+    if found := re.search(r"[^\0-\x7f]", code):
+        letter, line = found.group(), code.count("\n", 0, found.start()) + 1
+        why = "accents and other signs are for comments alone; write it with plain letters"
+        raise Mistake(f"{path}:{line}: '{letter}' (U+{ord(letter):04X}): {why}")
+
+
 def included(line):
     """Return the name in an include line, "" if it is written wrongly, None for any other line."""
     if "#" not in line:

@@ -57,7 +57,7 @@ TEXT = {
             "picture": "one picture",
             "card": "by the graphics card's own timer, which agrees with the wall clock",
             "wall": "by the wall clock",
-            "size": "{} × {} pixels, {} samples each",
+            "size": "{} × {} pixels, samples of each: {}",
             "told": (),
         },
         "film": {
@@ -162,7 +162,7 @@ TEXT = {
             "picture": "uma imagem",
             "card": "pelo cronômetro da placa gráfica, que concorda com o relógio",
             "wall": "pelo relógio de parede",
-            "size": "{} × {} pixels, {} amostras cada",
+            "size": "{} × {} pixels, amostras de cada um: {}",
             "told": (
                 ("the defaults", "os valores padrão"),
                 ("the albedo is", "o albedo é"),

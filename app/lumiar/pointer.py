@@ -1,5 +1,7 @@
 """The mouse over the pictures: which one it is on, which pixel was clicked, what is dragged."""
 
+import math
+
 from .hands import LEFT, Hands
 
 
@@ -15,6 +17,7 @@ class Pointer:
         self._stage, self._beside, self._hands = stage, beside, Hands()
         self.picked, self.left = None, 0
         self.place, self._pressed, self._index = (0.0, 0.0), None, 0
+        self._lens = None  # (size, pixels of a length of 1 at the target) of the active picture
 
     @property
     def index(self):
@@ -54,6 +57,18 @@ class Pointer:
         """Take a turn of the wheel."""
         self._index = self.index
         self._turn(*self._hands.wheel(notches))
+
+    def keep(self, left):
+        """Take where the pictures begin; what was picked stays on its thing in another size."""
+        self.left, shown, view = left, self._stage.shown, self._stage.view
+        if not shown or not view:
+            return
+        half = math.tan(math.radians(shown.camera.fov) / 2.0) * math.dist(*view)
+        before, self._lens = self._lens, (shown.size, shown.size[1] / half)
+        if self.picked and before and before[0] != shown.size:
+            share = self._lens[1] / before[1]
+            sides = zip(self.picked, before[0], shown.size, strict=True)
+            self.picked = tuple(0.5 * new + share * (x - 0.5 * old) for x, old, new in sides)
 
     @property
     def _local(self):

@@ -127,12 +127,14 @@ class Viewer:
             parts = self.presenter.parts(self.document) if self.presents else panel.ALL
             self._push(panel.draw(self.scene, self.state, parts), self.state.gesture)
             self._wish()
+        else:
+            self.state.width = 0.0
         self._push(self.drawer.draw(self._now(now)), labels.gesture(self.state))
         self.due = max(self.due, 2 * self.state.restless)
         self._notice_step()
         left, size = self._area()
-        self.pointer.left = left
         self.stage.draw(self.document.beside, self.scene, size, now - self.moved)
+        self.pointer.keep(left)
         self.due = max(self.due, self.stage.begun)
         self.trial.expect(size, self.stage.cost)
         if self.stage.busy:
@@ -149,8 +151,7 @@ class Viewer:
         width, height = self.desktop.size
         fine = width / imgui.get_io().display_size.x
         right = width - round(self.drawer.width * fine)
-        left = round(self.state.width * fine) if self.with_panel else 0
-        left = min(left, width - 1)
+        left = min(round(self.state.width * fine), width - 1)
         return left, (max(1, right - left), height)
 
     def _now(self, now):

@@ -3,6 +3,7 @@
 import numpy as np
 
 from .. import catalog, measure, reference
+from ..notation import number
 from ..scene import Scene
 from ..study import SHARE, Remark, Shown, points
 
@@ -115,9 +116,10 @@ def _gained(bench):
         model, values = _job("eon", 0.0, roughness, 1.0)
         own, _ = measure.albedo(bench.instrument, model, values, angles, transmits=False)
         eon = max(eon, float(own.max()))
+    full, less = number(most, 4, "pt"), number(eon, 4, "pt")
     return Remark(
         f"White, the full model returns up to {most:.3f} of the light, EON {eon:.3f}: where light"
         " goes round, as between walls, what matters is that it is not more than 1.",
-        f"Branco, o modelo completo devolve até {most:.3f} da luz, o EON {eon:.3f}: onde a luz"
+        f"Branco, o modelo completo devolve até {full} da luz, o EON {less}: onde a luz"
         " circula, como entre paredes, importa que não passe de 1.",
     )

@@ -3,6 +3,7 @@
 import numpy as np
 
 from .. import catalog, hostile, reference
+from ..notation import number
 from ..study import RELATIVE, Remark, in_order, points
 
 TITLE = {
@@ -45,7 +46,7 @@ def _words():
         for value in values
     }
     return {
-        **{case: {"en": said, "pt": said} for case, said in cases.items()},
+        **{case: {"en": said, "pt": said.replace(".", ",")} for case, said in cases.items()},
         "relative": {"en": "relative error", "pt": "erro relativo"},
         "naive": {"en": "as printed", "pt": "como impresso"},
         "stable": {"en": "Lumiar's form", "pt": "a forma do Lumiar"},
@@ -157,7 +158,7 @@ def _judged(found):
         parts = [intro]
         for variant, how in ways.items():
             order = [found[law, _usual(law), variant] for law in SENTENCE]
-            times = ", ".join(f"{p.cost:.2g}" for p in order)
+            times = "; ".join(number(p.cost, 2, lang) for p in order)
             parts.append(f"{how}: {VERDICTS[lang][in_order(order)]} ({times} ns).")
         said[lang] = " ".join(parts)
     return Remark(**said)
