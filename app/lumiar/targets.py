@@ -21,16 +21,18 @@ class Targets:
         """Return framebuffers (radiance, picture) for rows of a picture, side^2 samples a pixel."""
         key = (width, rows, side, linear)
         if key not in self._made:
-            self.release()
+            if (width, rows) != (1, 1):  # a pixel that is looked at takes nothing from a picture
+                self.release()
             context, size = self._owner.context, (width * side, rows * side)
             _ = context.error  # an older one is not about memory
             radiance = [context.texture(size, 4, dtype="f4")]
             radiance = context.framebuffer(radiance, context.depth_renderbuffer(size))
             pixels = context.texture((width, rows), 4, dtype="f4" if linear else "f1")
             picture = context.framebuffer([pixels])
-            if context.error != "GL_NO_ERROR":
-                raise Mistake(f"the driver has no memory for {width} x {rows} pixels; draw smaller")
             self._made[key] = (radiance, picture)
+            if context.error != "GL_NO_ERROR":
+                self.release()
+                raise Mistake(f"the driver has no memory for {width} x {rows} pixels; draw smaller")
         return self._made[key]
 
     def sum(self, size):
