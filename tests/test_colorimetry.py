@@ -68,3 +68,11 @@ def test_chromaticity_of_equal_energy_and_of_d65():
     E, white = colorimetry.chromaticity([np.ones(3), D65])
     assert pytest.approx([4 / 19, 9 / 19], abs=1e-15) == E
     assert white == pytest.approx([0.1978, 0.4683], abs=6e-5)
+
+
+def test_srgb_undoes_what_the_standard_says_of_codes():
+    """IEC 61966-2-1 defines the way from code to light."""
+    code = np.arange(256) / 255.0
+    light = np.where(code <= 0.04045, code / 12.92, ((code + 0.055) / 1.055) ** 2.4)
+    assert colorimetry.srgb(light) == pytest.approx(code, abs=1e-6)
+    assert colorimetry.srgb(np.array([-1.0, 7.0])) == pytest.approx([0.0, 1.0], abs=1e-15)

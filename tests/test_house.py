@@ -26,7 +26,7 @@ FLOORS = [  # lowest first; a module imports only from floors below its own
     "scenefile stock hands handles targets facing",
     "scene editing contrast pointer sight charts",
     "renderer lesson opening texts solids rows compare",
-    "picture options measure views report beside estimate editor gate tryout sections shelf",
+    "picture options measure views report beside estimate easel editor gate tryout sections shelf",
     "hostile measuring falsecolour reflectance deck presenter stage film stopwatch panel "
     "document gallery",
     "examine probe bench curves plotfiles comparison snapshot",

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from lumiar import Scene, capture, hands, layout, lesson, opening, scenefile, settings
+from lumiar import Scene, capture, easel, hands, layout, lesson, opening, scenefile, settings
 from lumiar.desktop import glfw  # which imports imgui before it
 from lumiar.document import Document
 from lumiar.errors import Mistake
@@ -124,6 +124,22 @@ def test_a_scene_of_several_passes_at_rest_is_what_capture_draws_too():
         drag(viewer, (16, 12), (18, 13))
         assert viewer.scene.camera != scene.camera and not viewer.stage.coarse
         assert (shown(viewer) == captured(hands.framed(viewer.scene, (32, 24)))).all()
+
+
+def test_shadows_in_many_directions_are_first_drawn_in_one(monkeypatch):
+    """How long they take is not known before; then some rows a frame, all as capture draws them."""
+    monkeypatch.setattr(easel, "LONG", 0.0)
+    lamp = settings.light("quad:samples=64:shadows=true")
+    scene = plain()._replace(lights=(lamp,))
+    with Viewer(scene, "en", hidden=True, size=(32, 24)) as viewer:
+        press(viewer, glfw.KEY_H)
+        viewer._push(scene.set(exposure=1).changed("light.1.samples", 65))
+        viewer.frame()
+        assert viewer.stage.coarse
+        first = shown(viewer)
+        settle(viewer)
+        whole = captured(hands.framed(viewer.scene, (32, 24)))
+        assert not viewer.stage.coarse and (shown(viewer) == whole).all() and (first != whole).any()
 
 
 def test_a_slow_picture_is_coarse_only_while_it_moves(viewer):

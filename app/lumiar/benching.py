@@ -8,7 +8,7 @@ import time
 
 import numpy as np
 
-from . import __version__, files, image, ledger, page, plates, studies, study
+from . import __version__, colorimetry, files, image, ledger, page, plates, studies, study
 from .bench import Bench
 from .errors import Mistake, nearest
 
@@ -121,9 +121,7 @@ def _pictures(name, shown, folder):
     """Write a picture and the map of its error; return what a report says of them."""
     stem = "-".join((name, shown.case, shown.variant)).replace(" ", "_").replace("/", "_")
     row = {"case": shown.case, "variant": shown.variant, "file": f"{stem}.png"}
-    linear = np.clip(np.nan_to_num(shown.pixels), 0.0, 1.0)
-    low, high = linear * 12.92, 1.055 * np.maximum(linear, 1e-9) ** (1.0 / 2.4) - 0.055
-    _png(folder, row["file"], np.where(linear <= 0.0031308, low, high))  # sRGB, IEC 61966-2-1
+    _png(folder, row["file"], colorimetry.srgb(np.nan_to_num(shown.pixels)))
     if shown.error is not None:
         error = np.nan_to_num(np.abs(shown.error))
         white = float(error.max())

@@ -1,8 +1,15 @@
-"""How far two colours are apart for the eye: u'v', CIE Lab, CIEDE2000. Arrays (..., 3), float64."""
+"""Colours as the eye tells them apart: sRGB, u'v', CIE Lab, CIEDE2000. Arrays (..., 3), float64."""
 
 import numpy as np
 
 _BENT = 6.0 / 29.0  # below its cube the cube root of Lab is a line: CIE 15:2018, 8.2.1
+
+
+def srgb(linear):
+    """Return shares of white as sRGB in [0, 1] (IEC 61966-2-1); what is beyond white is white."""
+    x = np.clip(linear, 0.0, 1.0)
+    bent = 1.055 * np.maximum(x, 0.0031308) ** (1.0 / 2.4) - 0.055
+    return np.where(x <= 0.0031308, 12.92 * x, bent)
 
 
 def chromaticity(xyz):

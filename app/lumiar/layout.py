@@ -86,11 +86,17 @@ def _aims(scene):
     return sum(light.shadows and not light.kind.sampled for light in scene.lights)
 
 
-def passes(scene):
-    """Return over how many passes the directions to the lights of a scene are spread."""
+def directions(scene):
+    """Return how many directions to its lights a scene has at a place, and of them the shadowed."""
     extended = [light for light in scene.lights if light.kind.sampled]
     hidden = sum(light.samples for light in extended if light.shadows)
-    return max(1, -(-hidden // HIDDEN), -(-sum(light.samples for light in extended) // AT_ONCE))
+    return sum(light.samples for light in extended), hidden
+
+
+def passes(scene):
+    """Return over how many passes the directions to the lights of a scene are spread."""
+    every, hidden = directions(scene)
+    return max(1, -(-hidden // HIDDEN), -(-every // AT_ONCE))
 
 
 def uniforms(scene, placed, number=1):

@@ -1,112 +1,15 @@
-"""The pictures in the window: drawn when their scenes change, as the last good one if need be."""
+"""The pictures in the window: how many, where each stands, and what is between them."""
 
 import contextlib
-import time
 
-from . import compare, hands, opening
-from .errors import Mistake, one_line
+from . import compare, hands
+from .easel import Easel
+from .errors import Mistake
 from .renderer import Renderer
-from .scene import Scene
 
 PROMPT = 0.04  # seconds that all pictures may take while they move
 PAPER = (0.16, 0.17, 0.2)  # between pictures
-LONG, SLICE = 0.15, 0.06  # seconds of a picture that is drawn some rows at a time; of those
 REST = 0.2  # seconds without a change before those that take longer are drawn in full
-
-
-class Easel:
-    """A picture on the card and what it shows; release it.
-
-    good    the last scene that could be drawn, shown the same as framed for the picture
-    view    (eye, target) of it
-    fault   the line of what keeps the scene wanted from being drawn, or ""
-    cost    seconds that the last whole picture took
-    coarse  whether the picture, or a part, has one sample per pixel, as while it moves
-    begun   whether rows of it are still to be drawn, by as many calls as that takes
-    """
-
-    def __init__(self, context):
-        self.context, self.canvas = context, None
-        self.begun, self._top, self._rows, self._spent = False, 0, 0, 0.0
-        self.good = self.shown = self.view = None
-        self.fault, self.cost, self.coarse = "", 0.0, False
-        self._drawn = None
-
-    def release(self):
-        """Free what is on the card."""
-        if self.canvas:
-            self.context.screen.use()
-            self.canvas.color_attachments[0].release()
-            self.canvas.release()
-            self.canvas = None
-
-    def stale(self):
-        """Have the next picture drawn, whatever it shows."""
-        self._drawn = None
-
-    def draw(self, scene, fault, size, coarse, renderer):
-        """Bring the picture up to date; return whether it had to be drawn.
-
-        scene is None where there is none, for the reason that `fault` says.
-        """
-        if self._drawn == (scene, fault, size) and self.coarse in (False, coarse):
-            return False
-        began = time.perf_counter()
-        if self._drawn != (scene, fault, size) or coarse or not self.begun:
-            self.begun, self._top, self._rows, self._spent = False, 0, 0, 0.0
-        try:
-            if scene is None:
-                raise Mistake(fault)
-            self.shown = self._show(scene, size, coarse, renderer)
-        except Mistake as mistake:
-            self.fault = one_line(mistake)
-            self._show_last(size, coarse, renderer)
-            if self.canvas is None:
-                raise
-        else:
-            self._forget_edited(scene, renderer)
-            self.good, self.fault = scene, ""
-            self.view = renderer.viewpoint(self.shown)
-        self.context.finish()
-        self._spent += time.perf_counter() - began
-        self.cost = self.cost if coarse or self.begun else self._spent
-        self._drawn, self.coarse = (scene, fault, size), coarse or self.begun
-        return True
-
-    def _show(self, scene, size, coarse, renderer, whole=False):
-        """Draw a scene into the canvas, or the next rows of it; return it as drawn."""
-        shown = hands.framed(scene, size)
-        self._fit(size)
-        if coarse or whole or self.cost < LONG:
-            self.begun = False
-            renderer.show(shown._replace(samples=1) if coarse else shown, self.canvas)
-            return shown
-        if not self.begun:
-            self._rows = max(1, int(size[1] * SLICE / self.cost))
-        elif self._spent * self._rows < 0.5 * SLICE * self._top:  # less than those before took
-            self._rows *= 2
-        renderer.show(shown, self.canvas, self._top, self._rows)
-        self._top += self._rows
-        self.begun = self._top < size[1]
-        return shown
-
-    def _show_last(self, size, coarse, renderer):
-        """Draw the last good scene, or the default one where there is none."""
-        with contextlib.suppress(Mistake):  # larger than any picture can be
-            self.shown = self._show(self.good or Scene.default(), size, coarse, renderer, True)
-            self.view = renderer.viewpoint(self.shown)
-
-    def _fit(self, size):
-        if self.canvas is None or self.canvas.size != size:
-            self.release()
-            self.canvas = self.context.framebuffer([self.context.texture(size, 4)])
-
-    def _forget_edited(self, scene, renderer):
-        """Free what was compiled from files as they were before their last good save."""
-        sources = {shader.path: shader.source for shader in opening.shaders(scene)}
-        for old in opening.shaders(self.good) if self.good else ():
-            if sources.get(old.path, old.source) != old.source:
-                renderer.forget(old.source)
 
 
 class Stage:
@@ -203,7 +106,7 @@ class Stage:
             one.draw(picture.scene, picture.fault, place[2:], coarse, self.renderer)
             for one, picture, place in zip(self.easels, pictures, self.places, strict=True)
         ]
-        if any(drawn) and not self.coarse:
+        if any(drawn):
             self.cost = sum(one.cost for one in self.easels)
         if mode == "difference":
             if self.deviation is None:

@@ -5,6 +5,7 @@ from contextlib import suppress
 import numpy as np
 
 from .. import difference, reference, study
+from ..colorimetry import srgb
 from ..reference_terms import unit
 from ..scene import Scene
 from ..study import Metric, Remark, Shown
@@ -141,17 +142,9 @@ def compared(pixels, truth, inside, flip):
     errors = {INSIDE: float(np.sqrt(np.mean(off[both] ** 2)))}
     if flip:
         with suppress(ImportError):
-            errors[FLIP] = difference.flip(
-                _displayed(truth / peak), _displayed(pixels / peak), False
-            )
+            shown = [srgb(one / peak).astype(np.float32) for one in (truth, pixels)]
+            errors[FLIP] = difference.flip(*shown, False)
     return errors, np.abs(off).max(axis=2)
-
-
-def _displayed(share):
-    """Return shares of white as sRGB in [0, 1], IEC 61966-2-1, float32."""
-    x = np.clip(share, 0.0, 1.0)
-    bent = 1.055 * np.maximum(x, 0.0031308) ** (1.0 / 2.4) - 0.055
-    return np.where(x <= 0.0031308, 12.92 * x, bent).astype(np.float32)
 
 
 def remarks(exponent, found):
