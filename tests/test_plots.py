@@ -133,6 +133,19 @@ def test_a_lobe_in_3d_is_the_same_model(viewer):
     assert np.allclose(lobe.f.reshape(-1, 3), wanted, rtol=CLOSE, atol=1e-6 * wanted.max())
 
 
+def test_a_lobe_that_is_black_is_drawn_as_none_and_comes_back(viewer):
+    tool(viewer).kind = "lobe"
+    bright = viewer.scene
+    settle(viewer)
+    lit = screen(viewer).tobytes()
+    viewer._push(bright.set(model="lambert", albedo="0,0,0"))
+    settle(viewer)
+    assert screen(viewer).tobytes() != lit and tool(viewer).kind == "lobe"
+    viewer._push(bright)
+    settle(viewer)
+    assert viewer.scene == bright
+
+
 def test_a_slider_and_undo_change_the_curve_at_once(viewer):
     before = tool(viewer).drawn.shown[0].f
     with_model(viewer, "phong", shininess=5.0)

@@ -500,3 +500,31 @@ def test_a_window_may_stay_open_for_longer_than_a_picture_may_take():
     code = "import math, sys, time\nfrom lumiar.supervise import limit_time, supervised\n"
     code += f"sys.exit(supervised(lambda: ({job}) and 7))"
     assert subprocess.run([sys.executable, "-c", code]).returncode == 7
+
+
+def test_undo_brings_back_what_was_open_with_its_page_and_its_name(viewer, tmp_path):
+    document, own, taught = viewer.document, tmp_path / "own.toml", lesson.shipped()["phong"]
+    own.write_text(plain().toml())
+    document.drop(scenefile.shipped()["models"])
+    captions = []
+    for _ in range(3):
+        captions.append((document.name, document.caption, document.scene))
+        document.turn(1)
+    document.drop(str(own))
+    assert (document.name, document.path) == ("own", str(own)) and not document.caption
+    document.undo()
+    assert document.name == "models" and document.page == 3
+    for known in reversed(captions):
+        document.undo()
+        assert (document.name, document.caption, document.scene) == known
+    for _ in range(4):
+        document.redo()
+    assert document.name == "own" and len(document.pages) == 1
+    document.drop(taught)
+    document.turn(1)
+    stop, beside = document.stop, document.beside.comparison
+    document.drop(str(own))
+    assert not document.stop
+    document.undo()
+    assert document.stop == stop and document.beside.comparison == document.beside.home == beside
+    settle(viewer)

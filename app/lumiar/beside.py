@@ -5,10 +5,25 @@ import os
 from typing import NamedTuple
 
 from . import compare, contrast, opening
+from . import lesson as lessons
 from .compare import Comparison, Variant
 from .comparing import TEXT
 from .errors import Mistake, one_line
 from .scene import Scene
+
+
+class Opened(NamedTuple):
+    """What an Edit has begun with, and its page of that.
+
+    stops are those of a Lesson, else []; pages: (captions, Scene) of each; name: of the scene, and
+    path that of its file, or "".
+    """
+
+    stops: list
+    pages: list
+    page: int
+    name: str
+    path: str
 
 
 class Edit(NamedTuple):
@@ -16,6 +31,7 @@ class Edit(NamedTuple):
 
     scene: Scene
     comparison: Comparison = Comparison()
+    opened: Opened | None = None
 
 
 class Shown(NamedTuple):
@@ -27,6 +43,13 @@ class Shown(NamedTuple):
     scene: Scene | None
     fault: str
     caption: dict
+
+
+def opened(scene, name="", path=""):
+    """Return what is Opened with a Scene or a Lesson, at its first page."""
+    stops = lessons.stops(scene) if isinstance(scene, lessons.Lesson) else []
+    pages = [({}, stop.step.scene) for stop in stops] or opening.pages(scene)
+    return Opened(stops, pages, 0, name, path)
 
 
 class Beside:

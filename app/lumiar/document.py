@@ -5,7 +5,7 @@ import time
 
 from . import compare, opening
 from . import lesson as lessons
-from .beside import Beside, Edit
+from .beside import Beside, Edit, opened
 from .clock import Clock
 from .errors import Mistake, one_line
 from .gate import Gate
@@ -21,6 +21,7 @@ class Document:
 
     scene   a Scene, or a Lesson, each stop of which is a page with a history of its own
     name    of the scene, and path that of its file, or ""
+    opened  the page that is shown, and of what, as to undo: its fields are there by their names
     home    the scene as it was opened; pages and page: (captions, Scene) of a sheet, and which
     stops   of a lesson, one for each page, else []
     beside  what is shown beside the scene
@@ -108,21 +109,18 @@ class Document:
 
     def open(self, scene, name="", path=""):
         """Show a scene, or the first picture of a sheet, instead of what was shown."""
-        stops, pages = _pages(scene)
-        self.gate.admit([pages[0][1]], self.history and self.scene)
+        new = opened(scene, name, path)
+        self.gate.admit([new.pages[0][1]], self.history and self.scene)
         if self._waiting:  # for another one, which nobody wants any more
             self.texts.faults.pop(self._waiting[-1], None)
             self._waiting = None
-        self.stops, self.pages, self.page = stops, pages, 0
-        self.name, self.path = name, path
-        self._begin()
+        self._begin(new)
 
     def turn(self, step):
         """Show the picture of the sheet that is so many further on, if there is one."""
         page = self.page + step
         if 0 <= page < len(self.pages) and self.gate.admits([self.pages[page][1]], self.scene):
-            self.page = page
-            self._begin()
+            self._begin(self.opened._replace(page=page))
 
     def push(self, scene, key=None):
         """Make a scene the one that is; see `History.push`."""
@@ -134,7 +132,7 @@ class Document:
         if self.gate.admits(self.beside.made(edit), self.scene):
             if self.clock.runs and edit.scene.time != self.scene.time:  # set by hand
                 self.clock.start(time.monotonic(), edit.scene.time)
-            self.history.push(edit, key)
+            self.history.push(edit._replace(opened=self.opened), key)
             self._follow()
 
     def play(self):
@@ -156,11 +154,13 @@ class Document:
     def undo(self):
         """Go back a step."""
         self.history.undo()
+        self._take(self.history.scene.opened)
         self._follow()
 
     def redo(self):
         """Take the step again that was undone last."""
         self.history.redo()
+        self._take(self.history.scene.opened)
         self._follow()
 
     def drop(self, path, chosen=0, onto=0):
@@ -234,15 +234,15 @@ class Document:
         """Read the file of the scene again."""
         try:
             is_lesson = lessons.is_lesson(self.path)
-            stops, pages = _pages((lessons.load if is_lesson else Scene.load)(self.path))
-            page = min(self.page, len(pages) - 1)
-            self.gate.admit([pages[page][1]], self.scene)
+            scene = (lessons.load if is_lesson else Scene.load)(self.path)
+            new = opened(scene, self.name, self.path)
+            new = new._replace(page=min(self.page, len(new.pages) - 1))
+            self.gate.admit([new.pages[new.page][1]], self.scene)
         except Mistake as mistake:
             self.texts.faults[self.path] = one_line(mistake)
             return
         self.texts.faults.pop(self.path, None)
-        self.stops, self.pages, self.page = stops, pages, page
-        self._begin()
+        self._begin(new)
 
     def _expect(self, load, name, path, mistake=None):
         """Open the scene that load() returns; where it has a mistake, keep waiting for it."""
@@ -260,16 +260,24 @@ class Document:
         self._waiting = (load, name, path, file)
         self._follow()
 
-    def _begin(self):
+    def _begin(self, new):
+        """Show the page of an Opened; what a lesson compares ends with it."""
         self.clock.stop()
-        self.home = self.pages[self.page][1]
-        plain, before = compare.Comparison(), self.beside.home
-        self.beside.home = home = compare.shots(self.stop.shots) if self.stops else plain
-        if self.history and not self.stops:  # what a lesson compares ends with it
-            self.history.push(Edit(self.home, self.beside.comparison if before == plain else home))
+        plain = self.beside.home == compare.Comparison()
+        self._take(new)
+        if self.history and not self.stops:
+            shown = self.beside.comparison if plain else self.beside.home
+            self.history.push(Edit(self.home, shown, new))
         else:
-            self.history = History(Edit(self.home, home))
+            self.history = History(Edit(self.home, self.beside.home, new))
         self._follow()
+
+    def _take(self, new):
+        """Take which page is shown, and of what."""
+        self.opened = new
+        self.stops, self.pages, self.page, self.name, self.path = new
+        self.home = self.pages[self.page][1]
+        self.beside.home = compare.shots(self.stop.shots) if self.stop else compare.Comparison()
 
     @property
     def _followed(self):
@@ -289,9 +297,3 @@ class Document:
         back = [path for path in self.gate.fresh if path in self.watch.paths - before]
         if back:  # they may have been saved while the scene had no use for them
             self.read(back)
-
-
-def _pages(scene):
-    """Return (stops, pages) of a Scene or of a Lesson."""
-    stops = lessons.stops(scene) if isinstance(scene, lessons.Lesson) else []
-    return stops, [({}, stop.step.scene) for stop in stops] or opening.pages(scene)

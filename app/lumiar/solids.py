@@ -47,6 +47,8 @@ class Solids:
             if known is None or known[0] is not one.f:
                 known = one.f, *_triangles(one, scale, colour, 1.0 if len(shown) == 1 else 0.6)
             self._meshes[key] = known
+            if not known[2].size:  # of a lobe that is black, ImPlot3D takes no colours
+                continue
             spec = implot3d.Spec()
             spec.flags = (
                 implot3d.TriangleFlags_.no_lines.value | implot3d.TriangleFlags_.no_markers.value
