@@ -3,9 +3,10 @@
 import itertools
 
 import pytest
+from hand import Spy
 from test_window import SIZE, plain, press, settle
 
-from lumiar import banner, datasheet, phrases
+from lumiar import banner, datasheet, editor, phrases
 from lumiar.desktop import glfw
 from lumiar.window import Viewer
 
@@ -121,3 +122,18 @@ def test_the_columns_of_the_data_sheet_stand_apart_in_large_letters(viewer, monk
         assert len({round(top, 1) for _, _, top, _ in row}) == 1
         assert all(one[3] < other[1] for one, other in itertools.pairwise(row))
         assert row[-1][3] <= viewer.desktop.size[0]
+
+
+def test_no_button_of_the_editor_is_cut_off(viewer, monkeypatch, tmp_path):
+    path, words = tmp_path / "own.glsl", phrases.TEXT["pt"]["editor"]
+    path.write_text("vec3 scatter(vec3 L, vec3 V) { return vec3(max(L.z, 0.0)); }\n")
+    viewer._push(viewer.scene.changed("model", str(path)))
+    press(viewer, glfw.KEY_F7)
+    for wide in (720, 640):
+        resize(viewer, wide, 400)
+        spy = Spy()
+        with monkeypatch.context() as patch:
+            patch.setattr(editor, "imgui", spy)
+            viewer.due = 1
+            viewer.frame()
+        assert all(spy.places[words[name]][2] < wide for name in ("save", "copy", "new", "revert"))

@@ -113,14 +113,14 @@ class Editor:
         else:
             if _button(words["save"], words["save tip"], edited) or keyed:
                 self._save(now, words)
-            imgui.same_line()
+            _along(words["copy"])
         if self.path.endswith(".glsl") and not fixed:
             if _button(words["copy"], words["copy tip"]) or (keyed and ships(self.path)):
                 self._ask("copy", words)
-            imgui.same_line()
+            _along(words["new"])
         if _button(words["new"], words["new tip"]):
             self._ask("new", words)
-        imgui.same_line()
+        _along(words["revert"])
         if _button(words["revert"], words["revert tip"], edited):
             self._read(document, document.texts.forget)
         wrapped(said, DIM)
@@ -250,6 +250,14 @@ def _shown(path, texts):
     sign = "• " if path in texts.drafts else ""
     folder, name = os.path.split(path)
     return f"{sign}{name}   ({os.path.basename(folder)}/)"
+
+
+def _along(label):
+    """Let the next button stand beside the last one, where there is room for it."""
+    imgui.same_line()
+    wide = imgui.calc_text_size(label).x + 2.0 * imgui.get_style().frame_padding.x
+    if imgui.get_content_region_avail().x < wide:
+        imgui.new_line()
 
 
 def _button(label, tip, able=True):

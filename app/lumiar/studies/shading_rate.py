@@ -12,7 +12,7 @@ from ..study import Metric, Remark, Shown
 
 TITLE = {
     "en": "Shading rate: per face, per vertex or per pixel, against the true sphere",
-    "pt": "Taxa de sombreamento: por face, vértice ou pixel, contra a esfera verdadeira",
+    "pt": "Tonalização: por face, vértice ou pixel, contra a esfera verdadeira",
 }
 SECONDS = (60.0, 5.0)
 FLIP, INSIDE = "flip", "rmse"
