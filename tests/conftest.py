@@ -24,13 +24,13 @@ def renderer():
 
 @pytest.fixture
 def lumiar(tmp_path):
-    """Run `lumiar ARGUMENTS` as a user would, in a folder of its own."""
+    """Run `lumiar ARGUMENTS` as a user would, in a folder of its own; without a display."""
 
     def run(*arguments, code=0, cwd=tmp_path, timeout=120, env=None, **options):
         process = subprocess.run(
             [sys.executable, "-m", "lumiar", *map(str, arguments)],
             cwd=cwd,
-            env={**os.environ, **(env or {})},
+            env={**os.environ, "DISPLAY": "", "WAYLAND_DISPLAY": "", **(env or {})},
             capture_output=True,
             text=True,
             timeout=timeout,

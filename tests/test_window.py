@@ -142,6 +142,21 @@ def test_shadows_in_many_directions_are_first_drawn_in_one(monkeypatch):
         assert not viewer.stage.coarse and (shown(viewer) == whole).all() and (first != whole).any()
 
 
+def test_a_picture_with_broken_pixels_says_how_many(tmp_path):
+    """As many as capture counts: none of them reaches a class unseen."""
+    path = tmp_path / "own.glsl"
+    path.write_text(MODEL % " + (L.x > 0.0 ? sqrt(k - 0.5) : 0.0)")
+    scene = plain().changed("model", str(path))
+    with Viewer(scene, "en", hidden=True, size=SIZE) as viewer:
+        settle(viewer)
+        assert viewer.stage.broken == 0
+        viewer._push(viewer.scene.set(k=0))
+        settle(viewer)
+        assert viewer.stage.broken == capture(hands.framed(viewer.scene, viewer._area()[1])).broken
+        red, green, blue = np.moveaxis(screen(viewer)[300:].astype(int), 2, 0)
+        assert viewer.stage.broken > 0 and ((red > 2 * green) & (red > 2 * blue)).sum() > 1000
+
+
 def test_a_slow_picture_is_coarse_only_while_it_moves(viewer):
     viewer._push(viewer.scene._replace(samples=16))
     settle(viewer)

@@ -19,6 +19,7 @@ class Easel:
     cost    seconds that the last whole picture took, or about so many that it will
     coarse  whether the picture, or a part, has one sample per pixel and one toward each light,
             as while it moves
+    broken  how many of its pixels have no finite radiance; they are magenta
     begun   whether rows of it are still to be drawn, by as many calls as that takes
     """
 
@@ -27,7 +28,7 @@ class Easel:
         self.begun, self._top, self._rows, self._first, self._spent = False, 0, 0, 0, 0.0
         self.good = self.shown = self.view = None
         self.fault, self.cost, self.coarse = "", 0.0, False
-        self._drawn, self._hidden = None, 0
+        self._drawn, self._hidden, self.broken = None, 0, 0
 
     def release(self):
         """Free what is on the card."""
@@ -75,6 +76,7 @@ class Easel:
             self._rows = max(1, min(self._rows, int(self._rows * SLICE / took)))
         if not coarse and not self.begun:
             self.cost, self._hidden = self._spent, hidden
+            self.broken = self.canvas.read(components=4)[3::4].count(0)
         elif coarse and hidden > max(1, self._hidden):
             self.cost, self._hidden = self._spent * hidden * scene.samples, hidden
         self._drawn, self.coarse = (scene, fault, size), coarse or self.begun

@@ -7,6 +7,7 @@ TEXT = {
         "reloaded": "{} read again",
         "page": "{} of {}",
         "last": "the last picture that could be drawn",
+        "broken": "pixels without a finite radiance (NaN or infinite), in magenta: {}",
         "editor": {
             "save": "Save",
             "save tip": "write the file: Ctrl S",
@@ -112,6 +113,7 @@ TEXT = {
         "reloaded": "{} lido de novo",
         "page": "{} de {}",
         "last": "a última imagem que pôde ser desenhada",
+        "broken": "pixels sem radiância finita (NaN ou infinita), em magenta: {}",
         "editor": {
             "save": "Salvar",
             "save tip": "gravar o arquivo: Ctrl S",

@@ -53,6 +53,11 @@ class Stage:
         return any(one.coarse for one in self.easels)
 
     @property
+    def broken(self):
+        """How many pixels have no finite radiance."""
+        return sum(one.broken for one in self.easels)
+
+    @property
     def begun(self):
         """Whether rows of a picture that takes long are still to be drawn."""
         return any(one.begun for one in self.easels)

@@ -132,10 +132,10 @@ class Viewer:
         self._push(self.drawer.draw(self._now(now)), labels.gesture(self.state))
         self.due = max(self.due, 2 * self.state.restless)
         self._notice_step()
-        left, size = self._area()
+        (left, size), broken = self._area(), self.stage.broken
         self.stage.draw(self.document.beside, self.scene, size, now - self.moved)
         self.pointer.keep(left)
-        self.due = max(self.due, self.stage.begun)
+        self.due = max(self.due, self.stage.begun, FRAMES * (self.stage.broken != broken))
         self.trial.expect(size, self.stage.cost)
         if self.stage.busy:
             self.state.wake = min(self.state.wake, now + IDLE)
@@ -181,8 +181,8 @@ class Viewer:
         caption = gallery.caption(document, self.state.lang)
         fault = shortened(document.fault or self.stage.fault or self.fault)
         fault = f"{fault}\n{words['last']}" if fault else ""
-        if not self.with_panel:
-            fault = fault or self.state.message
+        broken = words["broken"].format(self.stage.broken) if self.stage.broken else ""
+        fault = fault or ("" if self.with_panel else self.state.message) or broken
         done = self.notice[0] if now < self.notice[1] and not fault else ""
         points = imgui.get_io().display_size.x / self.desktop.size[0]
         area = (left * points, size[0] * points, size[1] * points)
