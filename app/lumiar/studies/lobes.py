@@ -59,7 +59,7 @@ def _number(value):
 
 WORDS = _words()
 VERDICTS = {
-    "en": {True: "true", False: "false", None: "not to be told"},
+    "en": {True: "true", False: "false", None: "not to be told apart"},
     "pt": {True: "verdade", False: "falso", None: "não se pode dizer"},
 }
 
