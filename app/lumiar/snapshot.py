@@ -2,7 +2,7 @@
 
 import math
 
-from . import compare, files, hands, image, legend, picture, scenefile, sheet
+from . import compare, files, hands, image, picture, scenefile, sheet
 from .comparing import TEXT
 from .gallery import numbers
 
@@ -48,4 +48,6 @@ def _difference(stage, said, words):
     found = numbers(one, words).removesuffix("FLIP …")
     lines = (", ".join(said), words["title"], found)
     title = "  ".join(" ".join(line.split()) for line in lines)  # two blanks end a line there
+    from . import legend  # with NumPy and Pillow: not when a window opens
+
     return legend.with_bar(one.canvas.size, pixels, title, one.ruler)
