@@ -255,7 +255,7 @@ def test_the_fresnel_curve_is_that_of_the_file(viewer, monkeypatch):
 
 def test_albedos_are_summed_while_nothing_moves(viewer):
     with_model(viewer, "lambert", albedo=(0.5, 0.25, 0.125))
-    tool(viewer).kind = "albedo"
+    tool(viewer).kind, viewer.due = "albedo", 1  # as a click does
     viewer.frame()
     assert len(tool(viewer).drawn.shown[0].angles) < 3
     viewer.moved = 0.0

@@ -20,6 +20,7 @@ from .trial import Trial
 SIZE = (1280, 800)
 IDLE, SOON = 0.15, 0.005  # seconds between two looks at the files, and while one is being saved
 FRAMES = 3  # that imgui takes to settle after an event
+CALM = 0.09  # seconds between two frames in which nothing but time has passed
 LINGER = 0.7  # seconds after which a tooltip has come up
 NOTICE = 4.0  # seconds that a message of something done stays
 KEEP = 2.0  # seconds between two times that the scene is put by
@@ -47,7 +48,7 @@ class Viewer:
         self.presenter, self.handles = presenter.Presenter(self.overlay), handles.Handles()
         self.presents = bool(self.document.stop)
         self.fault, self.notice = "", ("", 0.0)
-        self.moved = self.awake = 0.0
+        self.moved = self.awake = self.painted = 0.0
         self.pointer, self._seen = Pointer(self.stage, self.document.beside), None
         self.with_panel, self.with_keys, self.due = True, False, FRAMES
         self.kept, self.kept_at = None, time.monotonic()
@@ -107,12 +108,13 @@ class Viewer:
             if now - self.kept_at > KEEP:
                 self._keep()
             return False
-        self.due = max(0, self.due - 1)
+        self.due, self.painted = max(0, self.due - 1), now
         self._frame(now)
         return True
 
     def _lingers(self, now):
-        return now < self.awake or now < self.notice[1] or self.stage.coarse
+        waits = now < self.awake or now < self.notice[1] or self.stage.coarse
+        return waits and now - self.painted > CALM
 
     def _frame(self, now):
         desktop = self.desktop
@@ -288,8 +290,7 @@ class Viewer:
             self._tell("saved", path)
 
     def _tell(self, word, what):
-        text = TEXT[self.state.lang][word].format(what)
-        self.notice = (text, time.monotonic() + NOTICE)
+        self.notice = TEXT[self.state.lang][word].format(what), time.monotonic() + NOTICE
 
     def _keep(self):
         self.document.texts.put_by()
