@@ -19,7 +19,7 @@ class Easel:
     cost    seconds that the last whole picture took, or about so many that it will
     coarse  whether the picture, or a part, has one sample per pixel and one toward each light,
             as while it moves
-    broken  how many of its pixels have no finite radiance; they are magenta
+    broken  how many of its pixels have no finite radiance, in magenta; None until `count` is called
     begun   whether rows of it are still to be drawn, by as many calls as that takes
     """
 
@@ -28,7 +28,7 @@ class Easel:
         self.begun, self._top, self._rows, self._first, self._spent = False, 0, 0, 0, 0.0
         self.good = self.shown = self.view = None
         self.fault, self.cost, self.coarse = "", 0.0, False
-        self._drawn, self._hidden, self.broken = None, 0, 0
+        self._drawn, self._hidden, self.broken = None, 0, None
 
     def release(self):
         """Free what is on the card."""
@@ -48,7 +48,8 @@ class Easel:
         scene is None where there is none, for the reason that `fault` says.
         """
         hidden = layout.directions(scene)[1] if scene else 0
-        coarse = coarse or hidden > max(1, self._hidden)  # nobody knows yet how long it takes
+        new = hidden > max(1, self._hidden)  # nobody knows yet how long it takes
+        coarse = coarse or new
         if self._drawn == (scene, fault, size) and self.coarse in (False, coarse):
             return False
         began = time.perf_counter()
@@ -76,11 +77,16 @@ class Easel:
             self._rows = max(1, min(self._rows, int(self._rows * SLICE / took)))
         if not coarse and not self.begun:
             self.cost, self._hidden = self._spent, hidden
-            self.broken = self.canvas.read(components=4)[3::4].count(0)
-        elif coarse and hidden > max(1, self._hidden):
+        elif new:
             self.cost, self._hidden = self._spent * hidden * scene.samples, hidden
         self._drawn, self.coarse = (scene, fault, size), coarse or self.begun
+        self.broken = None
         return True
+
+    def count(self):
+        """Count the pixels that have no finite radiance, once for each whole picture."""
+        if self.broken is None and not self.coarse:
+            self.broken = self.canvas.read(components=4)[3::4].count(0)
 
     def _show(self, scene, size, coarse, renderer, whole=False):
         """Draw a scene into the canvas, or the next rows of it; return it as drawn."""

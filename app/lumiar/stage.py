@@ -55,7 +55,7 @@ class Stage:
     @property
     def broken(self):
         """How many pixels have no finite radiance."""
-        return sum(one.broken for one in self.easels)
+        return sum(one.broken or 0 for one in self.easels)
 
     @property
     def begun(self):
@@ -65,7 +65,8 @@ class Stage:
     @property
     def busy(self):
         """Whether a number is still to come."""
-        return bool(self.deviation and self.deviation.busy)
+        counts = any(one.broken is None for one in self.easels)
+        return counts or bool(self.deviation and self.deviation.busy)
 
     @property
     def fault(self):
@@ -113,6 +114,8 @@ class Stage:
         ]
         if any(drawn):
             self.cost = sum(one.cost for one in self.easels)
+        for one in self.easels if since >= REST else ():  # it takes milliseconds
+            one.count()
         if mode == "difference":
             if self.deviation is None:
                 from .deviation import Deviation
