@@ -46,6 +46,17 @@ class Spy:
         return got
 
 
+def spied(viewer, patch, modules):
+    """Draw a window.Viewer once more and return the Spy that these modules drew through."""
+    spy = Spy()
+    with patch.context() as patched:
+        for module in modules:
+            patched.setattr(module, "imgui", spy)
+        viewer.due = 1
+        viewer.frame()
+    return spy
+
+
 class Hand:
     """A panel with a scene in it, and the events that a person causes; one frame for each."""
 

@@ -1,7 +1,7 @@
 """The time of a scene in the real window: it runs and stops, and only then is anything drawn."""
 
 import pytest
-from hand import PANEL, Spy
+from hand import PANEL, spied
 from test_window import SIZE, plain, press, screen, settle, shown
 
 from lumiar import opening
@@ -95,12 +95,7 @@ def test_another_scene_begins_with_its_own_time(viewer):
 
 
 def test_the_button_beside_the_parameter_plays_too(viewer, monkeypatch):
-    spy = Spy()
-    with monkeypatch.context() as patch:
-        for module in PANEL:
-            patch.setattr(module, "imgui", spy)
-        viewer.due = 1
-        viewer.frame()
+    spy = spied(viewer, monkeypatch, PANEL)
     (place,) = [at for path, at in spy.places.items() if path.endswith("age/▶##play")]
     assert "t = 0.00 s" in spy.said
     before = screen(viewer)

@@ -5,7 +5,7 @@ import time
 
 import numpy as np
 import pytest
-from hand import Spy
+from hand import spied
 from PIL import Image
 from test_window import captured, drag, plain, press, save, screen, settle
 
@@ -48,16 +48,9 @@ def viewer():
 def look(monkeypatch):
     """Return a function that draws a window once more, and returns a Spy of panel and tool."""
 
-    def looked(one):
-        spy = Spy()
-        with monkeypatch.context() as patch:
-            for module in (panel, sections, widgets, labels, comparison, gallery, banner):
-                patch.setattr(module, "imgui", spy)
-            one.due = 1
-            one.frame()
-        return spy
-
-    return looked
+    return lambda one: spied(
+        one, monkeypatch, (panel, sections, widgets, labels, comparison, gallery, banner)
+    )
 
 
 @pytest.fixture

@@ -3,7 +3,7 @@
 import time
 
 import pytest
-from hand import Spy
+from hand import spied
 from test_window import SIZE, plain, press, save, settle, shown
 
 from lumiar import audit, auditor, catalog, datasheet, measure, settings
@@ -42,12 +42,7 @@ def wait(one, known, seconds=60):
 
 
 def said(one, monkeypatch):
-    spy = Spy()
-    with monkeypatch.context() as patch:
-        patch.setattr(datasheet, "imgui", spy)
-        one.due = 1
-        one.frame()
-    return spy.said
+    return spied(one, monkeypatch, (datasheet,)).said
 
 
 def test_the_sheet_tells_what_an_audit_finds_and_keeps_it(viewer, monkeypatch):

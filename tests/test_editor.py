@@ -5,7 +5,7 @@ import math
 import os
 
 import pytest
-from hand import Spy
+from hand import spied
 from test_window import MODEL, plain, press, save, settle, shown
 
 from lumiar import Scene, arguments, editor, gallery, labels, verbs
@@ -45,16 +45,7 @@ def viewer(own):
 def look(monkeypatch):
     """Return a function that draws a window once more, and returns a Spy of its editor."""
 
-    def looked(one):
-        spy = Spy()
-        with monkeypatch.context() as patch:
-            for module in (editor, labels):
-                patch.setattr(module, "imgui", spy)
-            one.due = 1
-            one.frame()
-        return spy
-
-    return looked
+    return lambda one: spied(one, monkeypatch, (editor, labels))
 
 
 def click(one, place):

@@ -4,9 +4,9 @@ import csv as csvs
 import math
 import time
 
+import hand
 import numpy as np
 import pytest
-from hand import Spy
 from PIL import Image
 from test_window import drag, plain, press, screen, settle
 
@@ -48,13 +48,7 @@ def tool(one):
 
 def spied(one, monkeypatch):
     """Draw once more and return the Spy of the tool."""
-    spy = Spy()
-    with monkeypatch.context() as patch:
-        for module in (plotter, labels):
-            patch.setattr(module, "imgui", spy)
-        one.due = 1
-        one.frame()
-    return spy
+    return hand.spied(one, monkeypatch, (plotter, labels))
 
 
 def press_on(one, monkeypatch, name):

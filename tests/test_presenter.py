@@ -1,7 +1,7 @@
 """A lesson in the real window: the question before the answer, large, with its sliders alone."""
 
 import pytest
-from hand import PANEL, Spy
+from hand import PANEL, spied
 from test_window import MIDDLE, captured, drag, plain, press, save, screen, settle, shown
 
 from lumiar import banner, compare, hands, lesson, presenter, settings
@@ -45,16 +45,7 @@ def viewer(tmp_path):
 def look(monkeypatch):
     """Return a function that draws a window once more, and returns a Spy of its panel."""
 
-    def looked(one):
-        spy = Spy()
-        with monkeypatch.context() as patch:
-            for module in (*PANEL, presenter, banner):
-                patch.setattr(module, "imgui", spy)
-            one.due = 1
-            one.frame()
-        return spy
-
-    return looked
+    return lambda one: spied(one, monkeypatch, (*PANEL, presenter, banner))
 
 
 def gloss(one):
